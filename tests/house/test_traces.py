@@ -9,7 +9,7 @@ from pathlib import Path
 #: Home and build folders of a machine, registry settings, and links of a package to its host.
 TRACES = re.compile(
     rb"(?<![\w.])/(?:home|root|work|farm|Users|opt|mnt)/\w"
-    rb"|index[-_][u]rl|find[-]links|--hash=|/simple/?[\"' \n]"
+    rb"|index[-_][u]rl|find[-]links|/simple/?[\"' \n]"
     rb"|(?:url|resolved|source)\"? *[=:] *.?https?://"
 )
 TEXT = {".py", ".toml", ".lock", ".md", ".cff", ".yaml", ".json", ".tex", ".txt", ".svg", ""}
