@@ -1,0 +1,9 @@
+"""Error against run time, for the six functions of a generated scene and what users have today.
+
+inputs   the sampled constants, loads and strains, by kind and precision
+oracle   the six functions in ball arithmetic, to hundreds of certified bits
+errors   distance to the oracle in whitened ulps, and how much of it the inputs explain
+forms    the textbook formulas in NumPy; rivals: every form that is measured
+timing   nanoseconds per point, interleaved
+records  what is stored; survey fills it; table and plot draw from it alone
+"""
