@@ -10,7 +10,8 @@ import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rodproof.codegen.measure.records import FUNCTIONS, Measurement, write_bytes
+from rodproof.codegen.files import write_bytes
+from rodproof.codegen.measure.records import FUNCTIONS, Measurement
 
 #: Errors outside are drawn on the edge: below lies what a double cannot show, above no number.
 LEAST, MOST = 1e-3, 1e17

@@ -6,10 +6,11 @@ import json
 import math
 import os
 import platform
-import tempfile
 from dataclasses import asdict, dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
+
+from rodproof.codegen.files import write_text
 
 FUNCTIONS = (
     "strains",
@@ -134,25 +135,6 @@ def _processor() -> str:
     return next(names, platform.processor() or "unknown")
 
 
-def write(path: Path, text: str) -> None:
-    """Write a text file whole or not at all."""
-    write_bytes(path, text.encode())
-
-
-def write_bytes(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=path.name, suffix=".part")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-        Path(name).chmod(0o644)
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
-
-
 def save(measurement: Measurement, path: Path) -> None:
     """Store as JSON, one row a line."""
     record = asdict(measurement)
@@ -160,7 +142,7 @@ def save(measurement: Measurement, path: Path) -> None:
     for key in ("errors", "times"):
         rows = ",\n".join("  " + json.dumps(row) for row in record[key])
         lines.append(f'"{key}": [\n{rows}\n]')
-    write(path, "{\n" + ",\n".join(lines) + "\n}\n")
+    write_text(path, "{\n" + ",\n".join(lines) + "\n}\n")
 
 
 def load(path: Path) -> Measurement:

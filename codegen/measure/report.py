@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from rodproof.codegen.files import write_text
 from rodproof.codegen.measure import plot, records, table
 
 DRAWN = ("ordinary", "extreme")
@@ -14,5 +15,5 @@ def report(data: Path, folder: Path) -> list[Path]:
     measurement = records.load(data)
     page = folder / "measurement.md"
     plots = [path for sample in DRAWN for path in plot.draw(measurement, sample, folder)]
-    records.write(page, table.page(measurement))
+    write_text(page, table.page(measurement))
     return [page, *plots]

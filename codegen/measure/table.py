@@ -23,8 +23,8 @@ def _preface(measurement: Measurement) -> str:
 
 Made by `rodproof report` from the stored measurement beside this page: {size} with seed
 {asked.seed}, {asked.batches * asked.points} points for each kind of input, times as the median
-of {asked.rounds} interleaved rounds. Machine: {machine.processor}, {machine.cores} cores, one thread,
-{machine.system}, Python {machine.python}, NumPy {machine.numpy}, SymPy {machine.sympy},
+of {asked.rounds} interleaved rounds. Machine: {machine.processor}, {machine.cores} cores,
+one thread, {machine.system}, Python {machine.python}, NumPy {machine.numpy}, SymPy {machine.sympy},
 mpmath {machine.mpmath}, python-flint {machine.flint}.
 
 Forms:

@@ -1,0 +1,209 @@
+"""The command ``rodproof``. Each command imports what it needs, so that none waits for the rest.
+
+Exit codes: 0 fine; 1 a verdict differs from the recorded one or is undecided; 2 usage;
+3 generated files differ from what the source gives.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from rodproof.codegen import show
+
+DIFFERENT_VERDICT, USAGE, DIFFERENT_FILES = 1, 2, 3
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    help="Derives, proof-checks and generates code for a strain-limiting special Cosserat rod.",
+)
+
+Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Jobs = Annotated[int, typer.Option(min=1, help="Processes to check with.", show_default="cores")]
+Section = Annotated[str | None, typer.Option(help="Only this section of the paper, as 3.1.")]
+Quick = Annotated[bool, typer.Option("--quick", help="Fewer points and rounds: half a minute.")]
+CORES = os.cpu_count() or 1
+
+
+class Format(StrEnum):
+    """How a derivation is shown."""
+
+    text = "text"
+    latex = "latex"
+    json = "json"
+
+
+def main() -> None:
+    """The console script."""
+    for library in ("OPENBLAS", "OMP", "MKL"):  # times are for one thread; 6x6 needs no more
+        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+    app()
+
+
+@contextmanager
+def one_sentence() -> Iterator[None]:
+    """Bad input ends in one sentence on standard error and exit code 2."""
+    try:
+        yield
+    except (ValueError, OSError) as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(USAGE) from None
+
+
+@app.command()
+def run(as_json: Json = False, jobs: Jobs = CORES) -> None:
+    """Derive, check, generate, document and measure; then say what came out and where it lies."""
+    from rodproof.codegen import pipeline, places, summary
+    from rodproof.derivations import ledger
+
+    with one_sentence():
+        here = places.checkout()
+    outcome = pipeline.run(here, jobs, lambda name: show.progress(name, lines=True))
+    rows = summary.rows(outcome, here)
+    if as_json:
+        show.as_json([row.__dict__ for row in rows])
+    else:
+        show.table(("", "outcome", "where"), [(row.stage, row.outcome, row.where) for row in rows])
+    _fail_on(show.differences(outcome.evidence, ledger.recorded()))
+
+
+@app.command()
+def derive(
+    labels: Annotated[
+        list[str] | None, typer.Argument(help="All of them if none is named.")
+    ] = None,
+    form: Annotated[Format, typer.Option("--format")] = Format.text,
+    as_json: Json = False,
+) -> None:
+    """Show derived objects and the steps that lead to them."""
+    from rodproof.codegen import explain
+    from rodproof.derivations.theory import derivations
+
+    with one_sentence():
+        found = [derivations.derive(label) for label in labels or derivations.labels()]
+    if as_json or form is Format.json:
+        show.as_json(explain.data(found))
+    else:
+        typer.echo(explain.latex(found) if form is Format.latex else explain.text(found))
+
+
+@app.command()
+def check(
+    ids: Annotated[
+        list[str] | None, typer.Argument(help="All statements if none is named.")
+    ] = None,
+    section: Section = None,
+    as_json: Json = False,
+    mutants: Annotated[bool, typer.Option("--mutants", help="Try the broken twins too.")] = False,
+    jobs: Jobs = CORES,
+) -> None:
+    """Verdict, method and time for each printed statement."""
+    from rodproof.derivations import ledger
+
+    with one_sentence():
+        chosen = ledger.find(ids) if ids else ledger.statements(section)
+    with show.progress("check") as tell:
+        evidence = ledger.check(chosen, mutants=mutants, jobs=jobs, progress=tell)
+    if as_json:
+        show.as_json([row.as_row() for row in evidence])
+    elif len(evidence) == 1:
+        show.story(evidence[0])
+    else:
+        show.evidence_table(evidence)
+        typer.echo(show.totals(evidence))
+    _fail_on(show.differences(evidence, ledger.recorded()))
+
+
+@app.command()
+def errata(section: Section = None, as_json: Json = False, jobs: Jobs = CORES) -> None:
+    """What is wrong in print, with counterexamples and corrections, and what needs a reading."""
+    from rodproof.derivations import ledger
+
+    with one_sentence():
+        chosen = ledger.statements(section)
+    with show.progress("check") as tell:
+        evidence = ledger.check(chosen, mutants=False, jobs=jobs, progress=tell)
+    if as_json:
+        found = [row for row in evidence if row.verdict in ("refuted", "reading")]
+        show.as_json([row.as_row() for row in found])
+    else:
+        show.errata(evidence)
+    _fail_on(show.differences(evidence, ledger.recorded()))
+
+
+@app.command()
+def document(
+    out: Annotated[Path | None, typer.Option(help="Folder; docs/derivation by default.")] = None,
+    as_json: Json = False,
+    jobs: Jobs = CORES,
+) -> None:
+    """Write the derivations with their verdicts as LaTeX."""
+    from rodproof.codegen import document as documents
+    from rodproof.codegen import places
+    from rodproof.derivations import ledger
+
+    with one_sentence():
+        folder = out or places.checkout().documents
+    with show.progress("check") as tell:
+        evidence = ledger.check(ledger.statements(), mutants=False, jobs=jobs, progress=tell)
+    with one_sentence():
+        _written(documents.write(folder, evidence), as_json)
+
+
+@app.command()
+def measure(
+    quick: Quick = False,
+    out: Annotated[
+        Path | None, typer.Option(help="File; docs/report/measurement.json by default.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Measure error and run time of every form, to JSON; goes on where it was broken off."""
+    from rodproof.codegen import places
+    from rodproof.codegen.measure import survey
+
+    with one_sentence():
+        path = out or places.checkout().measurement
+        with show.progress("measure", lines=True) as tell:
+            survey.measure(path, survey.settings(quick=quick), tell)
+    _written([path], as_json)
+
+
+@app.command()
+def report(
+    data: Annotated[
+        Path | None, typer.Option(help="What `rodproof measure` wrote, if not by default.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder; docs/report by default.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Draw the page and the plots of a measurement, without measuring."""
+    from rodproof.codegen import places
+    from rodproof.codegen.measure import report as reports
+
+    with one_sentence():
+        source = data or places.checkout().measurement
+        _written(reports.report(source, out or places.checkout().report), as_json)
+
+
+def _written(paths: list[Path], as_json: bool) -> None:
+    if as_json:
+        show.as_json([str(path) for path in paths])
+    else:
+        for path in paths:
+            typer.echo(f"wrote {path}")
+
+
+def _fail_on(differences: list[str]) -> None:
+    for difference in differences:
+        typer.echo(difference, err=True)
+    if differences:
+        raise typer.Exit(DIFFERENT_VERDICT)
