@@ -80,6 +80,17 @@ def strains() -> tuple[sp.Expr, ...]:
     return tuple(sp.diff(complementary_energy(), load) for load in LOADS)
 
 
+@cache
+def law_of_strains() -> tuple[sp.Expr, ...]:
+    """The law in its structural form, (gamma^p + Q*^{p/2})^{-1/p} K^{-1} sigma.
+
+    What a one-dimensional response x = y (gamma^p + y^p)^{-1/p} becomes in six dimensions; that
+    it is the gradient of W* is the content of statement ``wstar-gradient``.
+    """
+    factor = (gamma**p + dual_form() ** (p / 2)) ** (-1 / p)
+    return tuple(factor * row for row in compliance_at_rest() * sp.Matrix(LOADS))
+
+
 @dataclass(frozen=True)
 class RadialLaw:
     """The scalar law between the radii, and its inverse: x = strain(y), y = load(x)."""
@@ -130,3 +141,56 @@ def stiffness() -> sp.ImmutableMatrix:
 def compliance() -> sp.ImmutableMatrix:
     """D^2 W* = d(u, v)/d(m, n), differentiated entry by entry."""
     return sp.ImmutableMatrix(6, 6, lambda i, j: sp.diff(strains()[i], LOADS[j]))
+
+
+@cache
+def loads_at_leading_order() -> tuple[sp.Expr, ...]:
+    """lim_{h -> 0} sigma(h eps)/h, the linear law near rest.
+
+    sigma(h eps)/h = gamma (1 - h^p Q^{p/2})^{-1/p} K eps, and h^p -> 0 since p > 0.
+    """
+    h = sp.Symbol("h", positive=True)
+    X = h * sp.sqrt(quadratic_form())
+    factor = gamma * (1 - X**p) ** (-1 / p)  # = (y/x)(X), proved in step "the inverse law"
+    at_rest = factor.xreplace({X**p: sp.Integer(0)})
+    return tuple(at_rest * row for row in stiffness_at_rest() * sp.Matrix(STRAIN_FROM_REST))
+
+
+@dataclass(frozen=True)
+class SharpBound:
+    """|functional| < bound on all strains with Q < 1, approached at `extremal` (where Q = 1)."""
+
+    bound: sp.Expr
+    extremal: tuple[sp.Expr, ...]
+
+
+@cache
+def sharp_bound(*functional: sp.Expr) -> SharpBound:
+    """The support function of the ellipsoid Q < 1: sup a . eps = (a . K^{-1} a)^{1/2}.
+
+    Cauchy-Schwarz in the inner product of K: a . eps = (K^{-1} a) . K eps
+    <= (a . K^{-1} a)^{1/2} Q^{1/2}, with equality at eps = K^{-1} a/(a . K^{-1} a)^{1/2}.
+    """
+    a = sp.Matrix(functional)
+    image = compliance_at_rest() * a
+    bound = sp.sqrt(sp.trigsimp(sp.cancel((a.T * image)[0, 0])))
+    return SharpBound(bound, tuple(e / bound for e in image))
+
+
+def stored_energy_closed() -> sp.Expr:
+    """W for any p: gamma x^2/2 2F1(1/p, 2/p; 1 + 2/p; x^p)."""
+    return gamma * x**2 / 2 * sp.hyper([1 / p, 2 / p], [1 + 2 / p], x**p)
+
+
+def complementary_energy_closed() -> sp.Expr:
+    """W* for any p: y^2/(2 gamma) 2F1(1/p, 2/p; 1 + 2/p; -(y/gamma)^p)."""
+    return y**2 / (2 * gamma) * sp.hyper([1 / p, 2 / p], [1 + 2 / p], -((y / gamma) ** p))
+
+
+#: Elementary closed forms in the radii: p -> (W(x), W*(y)). By Chebyshev's theorem on
+#: int x^m (a + b x^n)^q dx, here m = 1, n = p, q = -1/p, a rational p gives an elementary
+#: integral exactly if q, (m+1)/n or their sum is an integer: 1/p or 2/p, so p = 2/k, k = 1, 2, ...
+ELEMENTARY: dict[sp.Rational, tuple[sp.Expr, sp.Expr]] = {
+    sp.Integer(2): (gamma * (1 - sp.sqrt(1 - x**2)), sp.sqrt(gamma**2 + y**2) - gamma),
+    sp.Integer(1): (gamma * (-x - sp.log(1 - x)), y - gamma * sp.log(1 + y / gamma)),
+}

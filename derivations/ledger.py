@@ -1,0 +1,209 @@
+"""From statements to verdicts: the one place where a check becomes evidence.
+
+    statement --decide--> decision --confirm, correct, mutate--> evidence --compare--> ledger
+
+The verdict follows from the decisions alone; the recorded one (verdicts.toml) is only compared.
+"""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import time
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import nullcontext
+from functools import cache
+from pathlib import Path
+
+from rodproof.derivations.latex import latex
+from rodproof.derivations.proof.mutants import mutants as broken_twins
+from rodproof.derivations.proof.prover import DIGITS, POINTS
+from rodproof.derivations.records import Confirmation, Decision, Evidence, Statement
+
+#: One module a section, in the order of the paper.
+SECTIONS: Mapping[str, str] = {
+    "3.1": "section_3_1",
+}
+
+#: A second route must agree to this many digits of the 50 it works with.
+AGREEMENT = 1e-30
+
+Progress = Callable[[str, int, int], None]
+
+
+class UnknownStatement(ValueError):
+    """An id or section that the paper's inventory does not have; the message has the nearest."""
+
+
+@cache
+def _section(name: str) -> tuple[Statement, ...]:
+    module = importlib.import_module(f"rodproof.derivations.printed.{SECTIONS[name]}")
+    found: tuple[Statement, ...] = module.statements()
+    return found
+
+
+def statements(section: str | None = None) -> tuple[Statement, ...]:
+    """The statements of one section, or all of them in the paper's order."""
+    if section is not None and section not in SECTIONS:
+        raise UnknownStatement(_unknown("section", section, SECTIONS))
+    names = SECTIONS if section is None else (section,)
+    return tuple(s for name in names for s in _section(name))
+
+
+@cache
+def _index() -> Mapping[str, str]:
+    """Statement id -> section, from the recorded verdicts (so that one id loads one section)."""
+    data = tomllib.loads((Path(__file__).parent / "verdicts.toml").read_text())
+    return {name: section for section, rows in data.items() for name in rows}
+
+
+def recorded() -> Mapping[str, str]:
+    """The recorded verdict of every statement."""
+    data = tomllib.loads((Path(__file__).parent / "verdicts.toml").read_text())
+    return {name: verdict for rows in data.values() for name, verdict in rows.items()}
+
+
+def find(ids: Iterable[str]) -> tuple[Statement, ...]:
+    """The statements with these ids, in the order asked for.
+
+    Raises UnknownStatement naming the id and the nearest ones.
+    """
+    found = []
+    for name in ids:
+        section = _index().get(name)
+        if section is None:
+            raise UnknownStatement(_unknown("statement", name, _index()))
+        found += [s for s in _section(section) if s.id == name]
+    return tuple(found)
+
+
+def _unknown(kind: str, name: str, known: Iterable[str]) -> str:
+    near = difflib.get_close_matches(name, list(known), n=3, cutoff=0.4)
+    hint = f"; nearest: {', '.join(near)}" if near else ""
+    return f"there is no {kind} {name!r}{hint}"
+
+
+def check(
+    chosen: Iterable[Statement],
+    *,
+    mutants: bool = False,
+    jobs: int = 1,
+    progress: Progress = lambda name, done, total: None,
+    executor: Executor | None = None,
+) -> tuple[Evidence, ...]:
+    """The evidence on each statement, in order; results do not depend on `jobs`.
+
+    mutants: also try the broken twins. executor: any concurrent.futures executor in place of
+    `jobs` local processes. progress: called with (id, done, total) as results arrive.
+    """
+    todo = tuple(chosen)
+    if executor is None and jobs <= 1:
+        found = []
+        for k, statement in enumerate(todo, 1):
+            found.append(judge(statement, mutants=mutants))
+            progress(statement.id, k, len(todo))
+        return tuple(found)
+    pool = nullcontext(executor) if executor is not None else ProcessPoolExecutor(jobs)
+    with pool as workers:
+        futures = [workers.submit(judge_by_id, s.id, mutants) for s in todo]
+        results = []
+        for k, (statement, future) in enumerate(zip(todo, futures, strict=True), 1):
+            results.append(future.result())
+            progress(statement.id, k, len(todo))
+    return tuple(results)
+
+
+def judge_by_id(name: str, mutants: bool) -> Evidence:
+    """`judge` for another process, where only the id needs to travel."""
+    (statement,) = find((name,))
+    return judge(statement, mutants=mutants)
+
+
+def judge(statement: Statement, *, mutants: bool = False) -> Evidence:
+    """Decide one statement, confirm it by the second route, correct it if false."""
+    started = time.perf_counter()
+    printed = statement.check.decide(statement.printed)
+    accepted = statement.correction or statement.read_as or statement.printed
+    decision = printed if accepted is statement.printed else statement.check.decide(accepted)
+    confirmation = statement.check.confirm(accepted) if decision.holds else None
+    verdict = _verdict(statement, printed, decision, confirmation)
+    tried = _Teeth.of(statement) if mutants else None
+    return Evidence(
+        id=statement.id,
+        section=statement.section,
+        label=statement.label,
+        verdict=verdict,
+        method=decision.method,
+        digits=confirmation.digits if confirmation else (DIGITS if POINTS else None),
+        points=POINTS + (confirmation.points if confirmation else 0),
+        seconds=round(time.perf_counter() - started, 4),
+        mutants_tried=tried.tried if tried else None,
+        mutants_killed=tried.killed if tried else None,
+        mutants_equivalent=tried.equivalent if tried else None,
+        counterexample=str(printed.counterexample) if printed.counterexample else None,
+        correction_latex=latex(statement.correction) if statement.correction else None,
+        reading=statement.reading or None,
+        claim=statement.claim,
+        latex=statement.latex,
+        residual=confirmation.residual if confirmation else None,
+        route=confirmation.route if confirmation else None,
+        note=statement.note,
+        survivors=tried.survivors if tried else (),
+        repaired_by=tried.repaired_by if tried else None,
+    )
+
+
+def _verdict(
+    statement: Statement,
+    printed: Decision,
+    accepted: Decision,
+    confirmation: Confirmation | None,
+) -> str:
+    """The verdict that the decisions allow; anything short of it is `undecided`."""
+    if confirmation is not None and not confirmation.residual < AGREEMENT:
+        return "undecided"
+    if statement.correction is not None:
+        refuted = printed.holds is False and printed.counterexample is not None
+        return "refuted" if refuted and accepted.holds and accepted.exact else "undecided"
+    if statement.reading:
+        return "reading" if accepted.holds and accepted.exact else "undecided"
+    if printed.holds is False:
+        return "undecided"
+    if printed.holds and printed.exact:
+        return "definition" if statement.introduces else "proved"
+    agrees = confirmation is not None and printed.holds is None and "digits" in printed.method
+    return "checked" if agrees else "undecided"
+
+
+class _Teeth:
+    """What became of the broken twins of the accepted transcription."""
+
+    def __init__(self, tried: int, equivalent: int, survivors: tuple[str, ...]) -> None:
+        self.tried, self.equivalent, self.survivors = tried, equivalent, survivors
+        self.killed = tried - equivalent - len(survivors)
+        self.repaired_by: str | None = None
+
+    @classmethod
+    def of(cls, statement: Statement) -> _Teeth:
+        base = statement.correction or statement.read_as or statement.printed
+        equivalent, survivors = 0, []
+        twins = broken_twins(base)
+        for twin in twins:
+            found = statement.check.decide(twin.tree, explain=False)
+            if found.holds and found.exact:
+                equivalent += 1
+            elif found.holds is not False:
+                survivors.append(twin.change)
+        teeth = cls(len(twins), equivalent, tuple(survivors))
+        if statement.correction is not None:
+            teeth.repaired_by = next(
+                (
+                    twin.change
+                    for twin in broken_twins(statement.printed)
+                    if statement.check.decide(twin.tree, explain=False).holds
+                ),
+                None,
+            )
+        return teeth
