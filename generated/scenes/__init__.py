@@ -1,0 +1,1 @@
+"""One module a scene; every byte is written by rodproof.codegen."""

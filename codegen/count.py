@@ -1,0 +1,39 @@
+"""Counts what a kernel costs per point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1, log1p
+
+from rodproof.codegen.kernel import Kernel
+from rodproof.codegen.primitives import WorkShare
+
+TRANSCENDENTAL = (sp.exp, sp.log, log1p, expm1)
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Operations a point; a square root counts as arithmetic, a special function apart."""
+
+    arithmetic: int
+    transcendental: int
+    special: int
+    temporaries: int
+
+
+def cost(kernel: Kernel) -> Cost:
+    """The cost of one point; the gauge's square root is counted, its scaled path is not."""
+    arithmetic = transcendental = special = 0
+    for expr in kernel.expressions():
+        for node in sp.preorder_traversal(expr):
+            if isinstance(node, TRANSCENDENTAL):
+                transcendental += 1
+            elif isinstance(node, WorkShare):
+                special += 1
+            elif isinstance(node, (sp.Add, sp.Mul, sp.Max, sp.Min)):
+                arithmetic += len(node.args) - 1
+            elif isinstance(node, (sp.Pow, sp.Piecewise)):
+                arithmetic += 1
+    return Cost(arithmetic + (kernel.gauge is not None), transcendental, special, len(kernel.body))

@@ -1,0 +1,121 @@
+"""From a scene to its module: every arrow of the code generator in one place.
+
+    scene --lower--> naive kernels --PASSES--> kernels --print_module--> text --write--> file
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+import tempfile
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from rodproof.codegen import scene as scenes
+from rodproof.codegen.kernel import Kernel, validate
+from rodproof.codegen.lower import lower
+from rodproof.codegen.passes.name import name
+from rodproof.codegen.passes.order import order
+from rodproof.codegen.passes.share import share
+from rodproof.codegen.passes.specialise import drop_dead
+from rodproof.codegen.passes.stabilise import stabilise
+from rodproof.codegen.scene import Scene
+from rodproof.codegen.targets.numpy_target import print_module
+from rodproof.derivations.symbols import CONSTANTS
+
+#: In this order; each takes a kernel and returns one that means the same.
+PASSES: tuple[Callable[[Kernel], Kernel], ...] = (stabilise, share, drop_dead, order, name)
+
+FOLDER = "scenes"
+INIT = '"""One module a scene; every byte is written by rodproof.codegen."""\n'
+KEPT = ("__init__.py",)
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A generated file that is not what the source gives: ``kind`` is changed, missing or stray."""
+
+    path: str
+    kind: str
+    diff: str
+
+
+def kernels(scene: Scene) -> tuple[Kernel, ...]:
+    """The scene's kernels after all passes."""
+    done = []
+    for kernel in lower(scene):
+        for step in PASSES:
+            kernel = step(kernel)
+        validate(kernel, frozenset(s.name for s in CONSTANTS))
+        done.append(kernel)
+    return tuple(done)
+
+
+def render(scene: Scene, verdicts: Mapping[str, str] | None = None) -> str:
+    """The text of the scene's module; ``verdicts`` maps statement ids to what the header says."""
+    return print_module(scene, kernels(scene), verdicts)
+
+
+def files(scenes: Iterable[Scene], verdicts: Mapping[str, str] | None = None) -> dict[str, str]:
+    """What the folder ``generated`` holds for these scenes: relative path to text."""
+    texts = {f"{FOLDER}/__init__.py": INIT}
+    return texts | {f"{FOLDER}/{s.name}.py": render(s, verdicts) for s in scenes}
+
+
+def committed_scenes() -> tuple[Scene, ...]:
+    """Every scene that comes with the project."""
+    return tuple(scenes.committed(name) for name in scenes.committed_names())
+
+
+def write(
+    scenes: Iterable[Scene], root: Path, verdicts: Mapping[str, str] | None = None
+) -> list[Path]:
+    """Writes the scenes' modules under ``root`` (the folder ``generated``); returns their paths.
+
+    Everything is rendered before anything is written, and each file is replaced in one step.
+    """
+    texts = files(scenes, verdicts)
+    return [write_text(root / path, text) for path, text in texts.items()]
+
+
+def write_text(path: Path, text: str) -> Path:
+    """Writes a file whole or not at all: to a temporary file beside it, then `os.replace`."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+    return path
+
+
+def check(
+    root: Path, scenes: Iterable[Scene] | None = None, verdicts: Mapping[str, str] | None = None
+) -> list[Difference]:
+    """How ``root`` differs from what the source gives; an empty list says it does not.
+
+    With ``scenes`` only these are compared, and stray files are not looked for.
+    """
+    wanted = files(committed_scenes() if scenes is None else scenes, verdicts)
+    found = []
+    for path, text in wanted.items():
+        present = (root / path).is_file()
+        old = (root / path).read_text("utf-8") if present else ""
+        if not present or old != text:
+            lines = difflib.unified_diff(
+                old.splitlines(keepends=True),
+                text.splitlines(keepends=True),
+                f"{path} (on disk)",
+                f"{path} (from the source)",
+            )
+            found.append(Difference(path, "changed" if present else "missing", "".join(lines)))
+    if scenes is None:
+        strays = sorted((root / FOLDER).glob("*.py"))
+        names = (f"{FOLDER}/{stray.name}" for stray in strays)
+        found += [Difference(name, "stray", "") for name in names if name not in wanted]
+    return found

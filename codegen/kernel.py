@@ -1,0 +1,137 @@
+"""Kernels: what a public function computes, as straight-line mathematics.
+
+A kernel is a list of named assignments in exact real arithmetic, each a SymPy expression in the
+inputs, the constants and the names before it. Targets print it (`numpy_target`) or evaluate it at
+any precision (`mpmath_target`); passes turn one kernel into another.
+
+Not supported, on purpose: loops, branches other than a ``Piecewise`` value, calls between kernels,
+reassignment, arrays, types, storage and blocks. Whoever needs one of these puts it into a target.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+#: Properties of the number format, filled in by the target: the smallest normal number, and a
+#: number whose exponential is near the largest one. In exact arithmetic they are 0 and infinity.
+tiny = sp.Symbol("tiny", positive=True)
+log_max = sp.Symbol("log_max", positive=True)
+
+
+class KernelError(ValueError):
+    """A kernel breaks a rule of its type; the message names the kernel and the assignment."""
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """``name = expr``, the statements it rests on and the step of the function it belongs to.
+
+    Assignments with the same non-empty ``step`` stand together; kernels that share a step hold
+    the same assignments there, so a target may print the step once.
+    """
+
+    name: str
+    expr: sp.Expr
+    statements: tuple[str, ...] = ()
+    step: str = ""
+
+    @property
+    def symbol(self) -> sp.Symbol:
+        return symbol(self.name)
+
+
+@dataclass(frozen=True)
+class Gauge:
+    """Freedom of scale: ``step`` may be evaluated with its ``inputs`` times any scale > 0.
+
+    The step ends in ``square``, homogeneous of degree two in the inputs. After the step ``norm``
+    is its square root, ``radius`` is ``norm/scale`` and ``square`` is ``radius^2``; what follows
+    is exact for any scale. A target uses the scale one, and another where squares would overflow
+    or underflow.
+    """
+
+    step: str
+    inputs: tuple[str, ...]
+    square: str
+    norm: str
+    radius: str
+
+
+@dataclass(frozen=True)
+class Limit:
+    """The kernel is defined where ``quantity < 1``; ``quantity`` is a name of the kernel."""
+
+    quantity: str
+    sentence: str
+
+
+@dataclass(frozen=True)
+class Output:
+    """Entry ``index`` of the output array ``array``; an empty index is the whole array."""
+
+    array: str
+    index: tuple[int, ...]
+    expr: sp.Expr
+    statements: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """One public function: inputs, assignments in order, outputs, gauge and limit.
+
+    ``constants`` are assignments in the constants alone, evaluated once per set of constants.
+    """
+
+    name: str
+    inputs: tuple[str, ...]
+    body: tuple[Assignment, ...]
+    outputs: tuple[Output, ...]
+    gauge: Gauge | None = None
+    limit: Limit | None = None
+    constants: tuple[Assignment, ...] = ()
+
+    def expressions(self) -> Iterator[sp.Expr]:
+        """Every expression evaluated per point."""
+        yield from (a.expr for a in self.body)
+        yield from (o.expr for o in self.outputs)
+
+    def rewrite(self, changed: dict[sp.Expr, sp.Expr]) -> Kernel:
+        """The kernel with every expression's subexpressions replaced as ``changed`` says."""
+        return replace(
+            self,
+            body=tuple(replace(a, expr=a.expr.xreplace(changed)) for a in self.body),
+            outputs=tuple(replace(o, expr=o.expr.xreplace(changed)) for o in self.outputs),
+        )
+
+    def statements(self) -> tuple[str, ...]:
+        """The statements the kernel rests on, each once, in order of use."""
+        every = (s for a in (*self.body, *self.outputs) for s in a.statements)
+        return tuple(dict.fromkeys(every))
+
+
+def symbol(name: str) -> sp.Symbol:
+    """The symbol of a temporary; targets and `validate` tell symbols apart by name alone."""
+    return sp.Symbol(name, real=True)
+
+
+def validate(kernel: Kernel, known: frozenset[str]) -> None:
+    """Raises `KernelError` unless every name is set once, before use; ``known`` are constants."""
+    defined = set(kernel.inputs) | known | {tiny.name, log_max.name}
+
+    def check(where: str, expr: sp.Expr) -> None:
+        missing = sorted({s.name for s in expr.free_symbols} - defined)
+        if missing:
+            raise KernelError(f"kernel {kernel.name}: {where} uses {missing[0]!r} before it is set")
+
+    for a in (*kernel.constants, *kernel.body):
+        check(a.name, a.expr)
+        if a.name in defined:
+            raise KernelError(f"kernel {kernel.name}: {a.name!r} is set twice")
+        defined.add(a.name)
+        if kernel.gauge is not None and a.name == kernel.gauge.square:
+            defined |= {kernel.gauge.norm, kernel.gauge.radius}
+    for o in kernel.outputs:
+        check(f"output {o.array}{list(o.index)}", o.expr)

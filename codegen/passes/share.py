@@ -1,0 +1,77 @@
+"""Computes once what is used twice: reciprocals of constants, aliases, repeated subexpressions."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import sympy as sp
+
+from rodproof.codegen.kernel import Assignment, Kernel, symbol
+from rodproof.derivations.symbols import CONSTANTS, alpha, beta, eta, zeta
+
+#: A division per point becomes a product with one of these.
+MODULI = (alpha, beta, zeta, eta)
+
+
+def share(kernel: Kernel) -> Kernel:
+    """The kernel with constants hoisted, aliases gone and repeated subexpressions named."""
+    return share_repeated(drop_aliases(hoist_reciprocals(kernel)))
+
+
+def hoist_reciprocals(kernel: Kernel) -> Kernel:
+    """``m1/alpha`` becomes ``m1*per_alpha`` with the constant ``per_alpha = 1/alpha``."""
+    powers = sorted(
+        {
+            power
+            for expr in kernel.expressions()
+            for power in expr.atoms(sp.Pow)
+            if power.base in MODULI and power.exp.is_negative
+        },
+        key=sp.default_sort_key,
+    )
+    changed = {power: symbol(f"per_{power.base}") ** (-power.exp) for power in powers}
+    bases = sorted({power.base for power in powers}, key=MODULI.index)
+    added = tuple(Assignment(f"per_{base}", 1 / base) for base in bases)
+    return replace(kernel.rewrite(changed), constants=(*kernel.constants, *added))
+
+
+def drop_aliases(kernel: Kernel) -> Kernel:
+    """An assignment that only renames another goes away."""
+    aliases = {a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol}
+    kept = tuple(a for a in kernel.body if a.symbol not in aliases)
+    return replace(kernel, body=kept).rewrite(aliases)
+
+
+def share_repeated(kernel: Kernel) -> Kernel:
+    """Function values and squares that occur twice in one step get a name of their own."""
+    for step in dict.fromkeys(("", *(a.step for a in kernel.body))):
+        kernel = _share_step(kernel, step)
+    return kernel
+
+
+def _share_step(kernel: Kernel, step: str) -> Kernel:
+    inside = [a.expr for a in kernel.body if a.step == step]
+    outputs = [o.expr for o in kernel.outputs] if step == "" else []
+    fixed = {a.symbol for a in kernel.constants} | set(CONSTANTS)
+    counts = Counter(
+        node
+        for expr in (*inside, *outputs)
+        for node in sp.preorder_traversal(expr)
+        if _worth_a_name(node) and not node.free_symbols <= fixed
+    )
+    repeated = sorted((n for n, c in counts.items() if c > 1), key=sp.default_sort_key)
+    names = {node: symbol(f"t{k}_{step}" if step else f"t{k}") for k, node in enumerate(repeated, 1)}
+    added = tuple(Assignment(new.name, node, (), step) for node, new in names.items())
+    body = tuple(
+        replace(a, expr=a.expr.xreplace(names)) if a.step == step else a for a in kernel.body
+    )
+    changed = tuple(
+        replace(o, expr=o.expr.xreplace(names)) if step == "" else o for o in kernel.outputs
+    )
+    return replace(kernel, body=(*added, *body), outputs=changed)
+
+
+def _worth_a_name(node: sp.Basic) -> bool:
+    square = isinstance(node, sp.Pow) and node.exp == 2
+    return square or isinstance(node, (sp.Function, sp.Max, sp.Min))

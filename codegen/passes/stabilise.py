@@ -1,0 +1,406 @@
+"""Rewrites the naive forms into forms that hold in floating point.
+
+Each `Rule` is an exact identity between expressions, together with the definitions its right side
+needs. `apply` replaces literal occurrences and refuses a rule that finds none. The tests hold
+every rule twice: as an identity, and for its error in doubles beside that of the form it replaces.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import sympy as sp
+from sympy.codegen.cfunctions import expm1, log1p
+
+from rodproof.codegen import lower
+from rodproof.codegen.kernel import Assignment, Kernel, KernelError, log_max, symbol, tiny
+from rodproof.codegen.primitives import WorkShare
+from rodproof.derivations.symbols import (
+    LOADS,
+    STRAINS,
+    alpha,
+    beta,
+    chiral_gap,
+    eta,
+    gamma,
+    iota,
+    p,
+    zeta,
+)
+from rodproof.derivations.theory import constitutive as theory
+
+Pair = tuple[sp.Expr, sp.Expr]
+
+x, y = theory.x, theory.y
+m1, m2, m3, n1, n2, n3 = LOADS
+u1, u2, u3, v1, v2, _ = STRAINS
+stretch, size, factor, share, q = map(symbol, ("stretch", "size", "factor", "share", "q"))
+chirality, gap, per_gap = map(symbol, ("chirality", "gap", "per_gap"))
+mu_1, mu_2, mu_3, nu_1, nu_2, nu_3 = map(symbol, ("mu_1", "mu_2", "mu_3", "nu_1", "nu_2", "nu_3"))
+twist, dilatation = symbol("twist"), symbol("dilatation")
+kappa_1, kappa_2, kappa_3 = map(symbol, ("kappa_1", "kappa_2", "kappa_3"))
+lam_1, lam_2, lam_3 = map(symbol, ("lam_1", "lam_2", "lam_3"))
+torque, tension = symbol("torque"), symbol("tension")
+
+#: Constants alone, evaluated exactly and rounded once: the gap 1 - chirality^2 cancels otherwise.
+CHIRAL_CONSTANTS = (
+    Assignment("chirality", iota / (beta * eta)),
+    Assignment("gap", chiral_gap / (beta * eta) ** 2),
+    Assignment("per_gap", (beta * eta) ** 2 / chiral_gap),
+)
+
+
+@dataclass(frozen=True)
+class Rule:
+    """An exact identity ``before = after`` for each pair, given the definitions.
+
+    ``why`` says what goes wrong with ``before`` in floating point.
+    """
+
+    name: str
+    pairs: tuple[Pair, ...]
+    definitions: tuple[Assignment, ...]
+    why: str
+    constants: tuple[Assignment, ...] = ()
+
+
+def stabilise(kernel: Kernel) -> Kernel:
+    """The kernel with its rules applied in order."""
+    for rule in RULES[kernel.name]:
+        kernel = apply(rule, kernel)
+    return kernel
+
+
+def apply(rule: Rule, kernel: Kernel) -> Kernel:
+    """The kernel with the rule's left sides replaced; `KernelError` if one does not occur."""
+    for before, _after in rule.pairs:
+        if not any(expr.has(before) for expr in kernel.expressions()):
+            raise KernelError(f"kernel {kernel.name}: rule {rule.name!r} finds no {before}")
+    changed = kernel.rewrite(dict(rule.pairs))
+    known = {a.name for a in changed.body}
+    added = tuple(a for a in rule.definitions if a.name not in known)
+    fixed = {a.name for a in kernel.constants}
+    constants = tuple(a for a in rule.constants if a.name not in fixed)
+    return replace(
+        changed, body=(*added, *changed.body), constants=(*kernel.constants, *constants)
+    )
+
+
+COMPLETE_DUAL_FORM = Rule(
+    "complete the square of Q*",
+    (
+        (
+            theory.dual_form(),
+            mu_1**2 + mu_2**2 + mu_3**2 + nu_1**2 + nu_2**2 + gap * dilatation**2,
+        ),
+    ),
+    (
+        Assignment("mu_1", m1 / alpha, (), "reduce_loads"),
+        Assignment("mu_2", m2 / alpha, (), "reduce_loads"),
+        Assignment("mu_3", m3 / beta, (), "reduce_loads"),
+        Assignment("nu_1", n1 / zeta, (), "reduce_loads"),
+        Assignment("nu_2", n2 / zeta, (), "reduce_loads"),
+        Assignment("nu_3", n3 / eta, (), "reduce_loads"),
+        Assignment("twist", (mu_3 - chirality * nu_3) * per_gap, (), "reduce_loads"),
+        Assignment("dilatation", (nu_3 - chirality * mu_3) * per_gap, (), "reduce_loads"),
+    ),
+    "near iota = beta eta the three coupled terms are large and cancel; Q* may even be negative",
+    CHIRAL_CONSTANTS,
+)
+
+e = tuple(symbol(f"e{i}") for i in range(1, 7))  # K^{-1} sigma, as lowered
+s = tuple(symbol(f"s{i}") for i in range(1, 7))  # K eps, as lowered
+d = tuple(symbol(f"d{i}") for i in range(1, 7))  # K^{-1} sigma/y
+t = tuple(symbol(f"t{i}") for i in range(1, 7))  # K eps/x
+moduli = (alpha, alpha, beta, zeta, zeta, eta)
+bend, turn, shear, extend = map(symbol, ("bend", "turn", "shear", "extend"))
+answers = (bend, bend, turn, shear, shear, extend)
+
+REDUCE_STRAINS = Rule(
+    "strains from reduced loads",
+    tuple(
+        (factor * row, answer * reduced)
+        for row, answer, reduced in zip(
+            e, answers, (mu_1, mu_2, twist, nu_1, nu_2, dilatation), strict=True
+        )
+    ),
+    (
+        Assignment("reach", y * factor / size),
+        *(
+            Assignment(answer.name, symbol("reach") / modulus)
+            for answer, modulus in dict(zip(answers, moduli, strict=True)).items()
+        ),
+    ),
+    "products such as eta^2 m3 leave the range of numbers before the quotient comes back",
+    CHIRAL_CONSTANTS,
+)
+
+COMPLETE_FORM = Rule(
+    "complete the square of Q",
+    (
+        (
+            lower.from_rest(theory.quadratic_form()),
+            kappa_1**2 + kappa_2**2 + torque**2 + lam_1**2 + lam_2**2 + gap * lam_3**2,
+        ),
+    ),
+    (
+        Assignment("kappa_1", alpha * u1, (), "reduce_strains"),
+        Assignment("kappa_2", alpha * u2, (), "reduce_strains"),
+        Assignment("kappa_3", beta * u3, (), "reduce_strains"),
+        Assignment("lam_1", zeta * v1, (), "reduce_strains"),
+        Assignment("lam_2", zeta * v2, (), "reduce_strains"),
+        Assignment("lam_3", eta * stretch, (), "reduce_strains"),
+        Assignment("torque", kappa_3 + chirality * lam_3, (), "reduce_strains"),
+    ),
+    "near iota = beta eta the three coupled terms cancel; Q may even be negative",
+    CHIRAL_CONSTANTS,
+)
+
+TENSION = Assignment("tension", lam_3 + chirality * kappa_3, (), "reduce_strains")
+
+REDUCE_LOADS = Rule(
+    "loads from reduced strains",
+    tuple(
+        (factor * row, answer * reduced)
+        for row, answer, reduced in zip(
+            s, answers, (kappa_1, kappa_2, torque, lam_1, lam_2, tension), strict=True
+        )
+    ),
+    (
+        TENSION,
+        *(
+            Assignment(answer.name, factor * modulus)
+            for answer, modulus in dict(zip(answers, moduli, strict=True)).items()
+        ),
+    ),
+    "beta^2 u3 + iota (v3 - 1) forms squares of constants that may leave the range of numbers",
+    CHIRAL_CONSTANTS,
+)
+
+ratio, power = symbol("ratio"), symbol("power")
+growth, depth = symbol("growth"), symbol("depth")
+
+SOFTEN_DEFINITIONS = (
+    Assignment("ratio", sp.Max(sp.Min(y, gamma) / sp.Max(y, gamma), tiny), (), "soften"),
+    Assignment("power", sp.exp(p * sp.log(ratio)), (), "soften"),
+)
+
+SCALE_RADIAL_FACTOR = Rule(
+    "take the larger of gamma and y out of the radial factor",
+    ((lower.strain_factor(), sp.exp(-log1p(power) / p) / sp.Max(y, gamma)),),
+    SOFTEN_DEFINITIONS,
+    "gamma^p and y^p overflow or underflow: y = 1e10, p = 40 answers 0 instead of 1/y",
+)
+
+SPLIT_STRAIN_WEIGHT = Rule(
+    "strain weight by the same power",
+    (
+        (
+            lower.strain_weight(),
+            sp.Piecewise((power, y <= gamma), (1, True), evaluate=False) / (1 + power),
+        ),
+    ),
+    SOFTEN_DEFINITIONS,
+    "gamma^p and y^p overflow or underflow",
+)
+
+STIFFEN_DEFINITIONS = (
+    Assignment(
+        "growth",
+        1 / expm1(sp.Min(-p / 2 * sp.log(sp.Max(q, tiny)), log_max)),
+        (),
+        "stiffen",
+    ),
+    Assignment("depth", log1p(growth), (), "stiffen"),
+)
+
+GROW_LOAD_FACTOR = Rule(
+    "load factor by the growth x^p/(1 - x^p)",
+    ((lower.load_factor(), gamma * sp.exp(depth / p)),),
+    STIFFEN_DEFINITIONS,
+    "1 - x^p cancels near the limit: Q = 1 - 1e-8, p = 0.7 loses half the digits",
+)
+
+GROW_LOAD_WEIGHT = Rule(
+    "load weight is the growth",
+    ((lower.load_weight(), growth),),
+    STIFFEN_DEFINITIONS,
+    "1 - x^p cancels near the limit",
+)
+
+FLOOR_STRAIN_RADIUS = Rule(
+    "floor under the strain radius",
+    ((sp.sqrt(q), sp.sqrt(sp.Max(q, tiny))),),
+    (),
+    "at rest the direction K eps/x is 0/0; there its weight is zero and any finite value serves",
+)
+
+strain, load = symbol("strain"), symbol("load")
+
+SHARE_COMPLEMENTARY_ENERGY = Rule(
+    "complementary energy as its share of the work",
+    ((theory.complementary_energy(), strain * y * (1 - WorkShare(depth, p))),),
+    (
+        *SOFTEN_DEFINITIONS,
+        Assignment("factor", sp.exp(-log1p(power) / p) / sp.Max(y, gamma), (), "soften"),
+        Assignment("strain", y * factor),
+        Assignment(
+            "depth",
+            log1p(power) - p * sp.Piecewise((0, y <= gamma), (sp.log(ratio), True), evaluate=False),
+        ),
+    ),
+    "the integral has no elementary form; its hypergeometric form fails in SciPy near p = 1",
+)
+
+SHARE_STORED_ENERGY = Rule(
+    "stored energy as its share of the work",
+    ((theory.stored_energy(), load * x * WorkShare(depth, p)),),
+    (
+        *STIFFEN_DEFINITIONS,
+        Assignment("factor", gamma * sp.exp(depth / p), (), "stiffen"),
+        Assignment("load", factor * x),
+    ),
+    "the integral has no elementary form; closed forms at p = 1, 2 cancel at small strain",
+)
+
+a1, a2, a3, b1, b2, b3 = map(symbol, ("a1", "a2", "a3", "b1", "b2", "b3"))
+c3, c6 = symbol("c3"), symbol("c6")
+across, coupled, remain = symbol("across"), symbol("coupled"), symbol("remain")
+
+
+def _complements() -> tuple[Pair, ...]:
+    """The diagonal and the coupled entry of K^{-1} - share d d^T without a difference.
+
+    In coordinates that make the reduced load a unit vector k the bracket is I - share k k^T; by
+    Lagrange's identity its entries are sums of the other components' squares, plus 1 - share
+    times the component's own.
+    """
+    rest = theory.compliance_at_rest()
+
+    def before(i: int, j: int) -> sp.Expr:
+        return rest[i, j] - share * d[i] * d[j]
+
+    squares = (a1**2, a2**2, b1**2, b2**2)
+    plain = tuple(
+        (
+            before(i, i),
+            per * (sp.Add(*(s for s in squares if s != own)) + coupled + remain * own) * per,
+        )
+        for i, own, per in zip(
+            (0, 1, 3, 4), squares, (1 / alpha, 1 / alpha, 1 / zeta, 1 / zeta), strict=True
+        )
+    )
+    twisting = ((across + b3**2) * per_gap + remain * c3**2) / beta**2
+    stretching = ((across + a3**2) * per_gap + remain * c6**2) / eta**2
+    coupling = (remain * c3 * c6 - (chirality * across + a3 * b3) * per_gap) / (beta * eta)
+    return (
+        *plain,
+        (before(2, 2), twisting),
+        (before(5, 5), stretching),
+        (before(2, 5), coupling),
+    )
+
+
+COMPLEMENT_COMPLIANCE = Rule(
+    "complements as sums of squares",
+    _complements(),
+    (
+        *SOFTEN_DEFINITIONS,
+        Assignment(
+            "remain", sp.Piecewise((1, y <= gamma), (power, True), evaluate=False) / (1 + power)
+        ),
+        *(
+            Assignment(name, reduced / size)
+            for name, reduced in zip(
+                ("a1", "a2", "a3", "b1", "b2", "b3", "c3", "c6"),
+                (mu_1, mu_2, mu_3, nu_1, nu_2, nu_3, twist, dilatation),
+                strict=True,
+            )
+        ),
+        Assignment("across", a1**2 + a2**2 + b1**2 + b2**2),
+        Assignment("coupled", a3**2 + gap * c6**2),
+    ),
+    "at large loads K^{-1} and the rank-one term cancel along the load: 7e3 ulps near D = 0",
+    CHIRAL_CONSTANTS,
+)
+
+directions = (a1, a2, c3, b1, b2, c6)
+
+DIRECT_COMPLIANCE = Rule(
+    "strain direction from the reduced loads",
+    tuple((row / y, k / modulus) for row, k, modulus in zip(e, directions, moduli, strict=True)),
+    COMPLEMENT_COMPLIANCE.definitions,
+    "K^{-1} sigma and y leave the range of numbers where their quotient does not",
+    CHIRAL_CONSTANTS,
+)
+
+DIRECT_STIFFNESS = Rule(
+    "load direction from the reduced strains",
+    tuple(
+        (row / x, modulus * k / x)
+        for row, k, modulus in zip(
+            s, (kappa_1, kappa_2, torque, lam_1, lam_2, tension), moduli, strict=True
+        )
+    ),
+    (TENSION,),
+    "beta^2 u3 + iota (v3 - 1) forms squares of constants that may leave the range of numbers",
+    CHIRAL_CONSTANTS,
+)
+
+
+def _rank_one(sign: int, along: tuple[sp.Symbol, ...], kept: tuple[Pair, ...]) -> Rule:
+    """One product an entry: the direction times factor and weight is formed once a row."""
+    w = tuple(symbol(f"w{i}") for i in range(1, 7))
+    pairs = tuple(
+        (sign * factor * share * along[i] * along[j], w[i] * along[j])
+        for i in range(6)
+        for j in range(i + 1, 6)
+        if (i, j) != (2, 5)
+    )
+    used = range(6) if kept else range(5)
+    return Rule(
+        "rank-one term by rows",
+        pairs + kept,
+        (
+            Assignment("steep", sign * factor * share),
+            *(Assignment(w[i].name, symbol("steep") * along[i]) for i in used),
+        ),
+        "each entry would take three products",
+    )
+
+
+def _stiff_pairs() -> tuple[Pair, ...]:
+    w = tuple(symbol(f"w{i}") for i in range(1, 7))
+    rest = theory.stiffness_at_rest()
+    own = (*((i, i) for i in range(6)), (2, 5))
+    return tuple(
+        (factor * (rest[i, j] + share * t[i] * t[j]), factor * rest[i, j] + w[i] * t[j])
+        for i, j in own
+    )
+
+
+RANK_ONE_COMPLIANCE = _rank_one(-1, d, ())
+RANK_ONE_STIFFNESS = _rank_one(1, t, _stiff_pairs())
+
+RULES: dict[str, tuple[Rule, ...]] = {
+    "strains": (COMPLETE_DUAL_FORM, SCALE_RADIAL_FACTOR, REDUCE_STRAINS),
+    "loads": (COMPLETE_FORM, GROW_LOAD_FACTOR, REDUCE_LOADS),
+    "stored_energy": (SHARE_STORED_ENERGY, COMPLETE_FORM),
+    "complementary_energy": (SHARE_COMPLEMENTARY_ENERGY, COMPLETE_DUAL_FORM),
+    "compliance": (
+        COMPLETE_DUAL_FORM,
+        SCALE_RADIAL_FACTOR,
+        SPLIT_STRAIN_WEIGHT,
+        COMPLEMENT_COMPLIANCE,
+        DIRECT_COMPLIANCE,
+        RANK_ONE_COMPLIANCE,
+    ),
+    "stiffness": (
+        COMPLETE_FORM,
+        GROW_LOAD_FACTOR,
+        GROW_LOAD_WEIGHT,
+        FLOOR_STRAIN_RADIUS,
+        DIRECT_STIFFNESS,
+        RANK_ONE_STIFFNESS,
+    ),
+}
