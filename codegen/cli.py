@@ -7,6 +7,7 @@ Exit codes: 0 fine; 1 a verdict differs from the recorded one or is undecided; 2
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
@@ -110,15 +111,17 @@ def check(
 
     with one_sentence():
         chosen = ledger.find(ids) if ids else ledger.statements(section)
+    started = time.perf_counter()
+    workers = min(jobs, len(chosen))
     with show.progress("check") as tell:
-        evidence = ledger.check(chosen, mutants=mutants, jobs=jobs, progress=tell)
+        evidence = ledger.check(chosen, mutants=mutants, jobs=workers, progress=tell)
     if as_json:
         show.as_json([row.as_row() for row in evidence])
     elif len(evidence) == 1:
         show.story(evidence[0])
     else:
         show.evidence_table(evidence)
-        typer.echo(show.totals(evidence))
+        typer.echo(f"{show.totals(evidence)}; {time.perf_counter() - started:.1f} s")
     _fail_on(show.differences(evidence, ledger.recorded()))
 
 
@@ -137,6 +140,69 @@ def errata(section: Section = None, as_json: Json = False, jobs: Jobs = CORES) -
     else:
         show.errata(evidence)
     _fail_on(show.differences(evidence, ledger.recorded()))
+
+
+@app.command()
+def scenes(as_json: Json = False) -> None:
+    """List the scenes: what each holds and what it does at the strain limit."""
+    from dataclasses import asdict
+
+    from rodproof.codegen import scene
+
+    with one_sentence():
+        found = [scene.committed(name) for name in scene.committed_names()]
+    if as_json:
+        show.as_json([asdict(entry) for entry in found])
+    else:
+        show.table(
+            ("scene", "functions", "at the limit", "summary"),
+            [(s.name, ", ".join(s.functions), s.at_limit, s.summary) for s in found],
+        )
+
+
+@app.command()
+def generate(
+    names: Annotated[list[str] | None, typer.Argument(help="Scenes; all if none is named.")] = None,
+    check_only: Annotated[
+        bool, typer.Option("--check", help="Write nothing; show what would change, exit 3.")
+    ] = False,
+    own: Annotated[Path | None, typer.Option("--scene", help="A scene file of your own.")] = None,
+    out: Annotated[Path | None, typer.Option(help="Where the module of --scene goes.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Rewrite generated/ from the derivation."""
+    from rodproof.codegen import generate as generator
+    from rodproof.codegen import places, scene
+    from rodproof.derivations import ledger
+
+    with one_sentence():
+        if (own is None) != (out is None) or (own and (names or check_only)):
+            raise ValueError("--scene FILE goes with --out FILE, and with nothing else")
+        verdicts = ledger.recorded()
+        if own and out:
+            text = generator.render(scene.load(own), verdicts)
+            _written([generator.write_text(out, text)], as_json)
+            return
+        folder = places.checkout().generated
+        chosen = [scene.committed(name) for name in names] if names else None
+        if not check_only:
+            wanted = chosen or generator.committed_scenes()
+            _written(generator.write(wanted, folder, verdicts), as_json)
+            return
+        found = generator.check(folder, chosen, verdicts)
+    _show_differences([(entry.path, entry.kind, entry.diff) for entry in found], as_json)
+
+
+def _show_differences(found: list[tuple[str, str, str]], as_json: bool) -> None:
+    if as_json:
+        show.as_json([{"path": path, "kind": kind, "diff": diff} for path, kind, diff in found])
+    for path, kind, diff in () if as_json else found:
+        typer.echo(f"generated/{path}: {kind}\n{diff}", nl=False)
+    if found:
+        typer.echo("to accept: rodproof generate (and delete what is stray)", err=True)
+        raise typer.Exit(DIFFERENT_FILES)
+    if not as_json:
+        typer.echo("generated/ is what the source gives")
 
 
 @app.command()

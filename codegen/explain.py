@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 import sympy as sp
 
+from rodproof.derivations.latex import latex as latex_of
 from rodproof.derivations.records import Derivation, Step
 
 Format = Callable[[Sequence[Derivation]], str]
@@ -48,7 +49,7 @@ def _section_latex(derivation: Derivation) -> str:
         "\n".join(
             [
                 rf"\item {step.title}: {step.rule}",
-                *(rf"\[ {sp.latex(formula)} \]" for formula in step.formulas),
+                *(rf"\[ {latex_of(formula)} \]" for formula in step.formulas),
             ]
         )
         for step in derivation.steps
@@ -69,7 +70,7 @@ def data(derivations: Sequence[Derivation]) -> list[dict[str, object]]:
                     "title": step.title,
                     "rule": step.rule,
                     "statements": list(step.statements),
-                    "latex": [sp.latex(formula) for formula in step.formulas],
+                    "latex": [latex_of(formula) for formula in step.formulas],
                     "sympy": [str(formula) for formula in step.formulas],
                 }
                 for step in derivation.steps

@@ -41,7 +41,7 @@ def run(places: Places, jobs: int, stage: Stage) -> Outcome:
     """Derive, check, generate, document, measure."""
     derived = derive(stage)
     evidence = check(jobs, stage)
-    generated = write_modules(stage)
+    generated = write_modules(places, stage)
     documents = write_documents(places, evidence, stage)
     reports = measure(places, stage, quick=True)
     return Outcome(derived, evidence, generated, documents, reports)
@@ -65,11 +65,12 @@ def check(jobs: int, stage: Stage) -> tuple[Evidence, ...]:
         return ledger.check(ledger.statements(), mutants=False, jobs=jobs, progress=tell)
 
 
-def write_modules(stage: Stage) -> tuple[Path, ...]:
+def write_modules(places: Places, stage: Stage) -> tuple[Path, ...]:
     """Rewrite ``generated/``."""
     with stage("generate") as tell:
         tell("scenes", 0, 1)
-        written = tuple(generate.write())
+        scenes = generate.committed_scenes()
+        written = tuple(generate.write(scenes, places.generated, ledger.recorded()))
         tell("", 1, 1)
     return written
 

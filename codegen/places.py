@@ -13,6 +13,10 @@ class Places:
     root: Path
 
     @property
+    def generated(self) -> Path:
+        return self.root / "generated"
+
+    @property
     def documents(self) -> Path:
         return self.root / "docs" / "derivation"
 

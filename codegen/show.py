@@ -34,7 +34,13 @@ def table(columns: Sequence[str], rows: Sequence[Sequence[str]], title: str = ""
     from rich.table import Table
     from rich.text import Text
 
-    shown = Table(title=title or None, title_justify="left", header_style="bold", box=None)
+    shown = Table(
+        title=title or None,
+        title_justify="left",
+        header_style="bold",
+        box=None,
+        show_header=any(columns),
+    )
     for column in columns:
         shown.add_column(column, overflow="fold")
     for row in rows:
@@ -46,7 +52,7 @@ def _plain_table(columns: Sequence[str], rows: Sequence[Sequence[str]], title: s
     widths = [max(len(row[i]) for row in (columns, *rows)) for i in range(len(columns))]
     if title:
         print(title)
-    for row in (columns, *rows):
+    for row in (columns, *rows) if any(columns) else rows:
         cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
         print("  ".join(cells).rstrip())
 

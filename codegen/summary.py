@@ -54,6 +54,7 @@ def _measured(places: Places) -> str:
     ]
     ratios = [time.ratio for time in blocks]
     return (
-        f"{OURS}: {failures} of {points} answers missing, at most {max(beyond, default=0):.1f} ulps "
-        f"beyond the inputs' own; {RIVAL} takes {min(ratios):.2g} to {max(ratios):.2g} times as long"
+        f"{OURS}: {failures} of {points} answers missing, at most {max(beyond, default=0):.1f} "
+        f"ulps beyond what the inputs explain; {RIVAL} takes {min(ratios):.2g} to "
+        f"{max(ratios):.2g} times as long"
     )

@@ -40,7 +40,7 @@ def measure(path: Path, asked: Settings, tell: Tell) -> Measurement:
     """Measure every function and store the result at ``path``."""
     forms = all_forms()
     partial = path.with_suffix(".partial.json")
-    measured = _resumed(partial, asked, forms)
+    measured = resumed(partial, asked, forms)
     with np.errstate(all="ignore"):  # what the rivals do wrong is counted, not warned about
         for index, function in enumerate(FUNCTIONS):
             tell(function, index, len(FUNCTIONS))
@@ -59,7 +59,8 @@ def measure(path: Path, asked: Settings, tell: Tell) -> Measurement:
     return measured
 
 
-def _resumed(partial: Path, asked: Settings, forms: Sequence[Form]) -> Measurement:
+def resumed(partial: Path, asked: Settings, forms: Sequence[Form]) -> Measurement:
+    """What a run that was broken off left, if it is of this kind; else an empty measurement."""
     fresh = Measurement(records.this_machine(), asked, {form.name: form.words for form in forms})
     if not partial.exists():
         return fresh
