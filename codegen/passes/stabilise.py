@@ -37,6 +37,7 @@ u1, u2, u3, v1, v2, _ = STRAINS
 stretch, size, factor, share, q = map(symbol, ("stretch", "size", "factor", "share", "q"))
 chirality, gap, per_gap = map(symbol, ("chirality", "gap", "per_gap"))
 mu_1, mu_2, mu_3, nu_1, nu_2, nu_3 = map(symbol, ("mu_1", "mu_2", "mu_3", "nu_1", "nu_2", "nu_3"))
+per_eta_gap, iota_beta = symbol("per_eta_gap"), symbol("iota_beta")
 twist, dilatation = symbol("twist"), symbol("dilatation")
 kappa_1, kappa_2, kappa_3 = map(symbol, ("kappa_1", "kappa_2", "kappa_3"))
 lam_1, lam_2, lam_3 = map(symbol, ("lam_1", "lam_2", "lam_3"))
@@ -47,6 +48,8 @@ CHIRAL_CONSTANTS = (
     Assignment("chirality", iota / (beta * eta)),
     Assignment("gap", chiral_gap / (beta * eta) ** 2),
     Assignment("per_gap", (beta * eta) ** 2 / chiral_gap),
+    Assignment("per_eta_gap", eta * beta**2 / chiral_gap),
+    Assignment("iota_beta", iota / beta**2),
 )
 
 
@@ -101,8 +104,8 @@ COMPLETE_DUAL_FORM = Rule(
         Assignment("nu_1", n1 / zeta, (), "reduce_loads"),
         Assignment("nu_2", n2 / zeta, (), "reduce_loads"),
         Assignment("nu_3", n3 / eta, (), "reduce_loads"),
-        Assignment("twist", (mu_3 - chirality * nu_3) * per_gap, (), "reduce_loads"),
-        Assignment("dilatation", (nu_3 - chirality * mu_3) * per_gap, (), "reduce_loads"),
+        Assignment("dilatation", per_eta_gap * (n3 - iota_beta * m3), (), "reduce_loads"),
+        Assignment("twist", mu_3 - chirality * dilatation, (), "reduce_loads"),
     ),
     "near iota = beta eta the three coupled terms are large and cancel; Q* may even be negative",
     CHIRAL_CONSTANTS,
@@ -156,7 +159,7 @@ COMPLETE_FORM = Rule(
     CHIRAL_CONSTANTS,
 )
 
-TENSION = Assignment("tension", lam_3 + chirality * kappa_3, (), "reduce_strains")
+TENSION = Assignment("tension", chirality * torque + gap * lam_3, (), "reduce_strains")
 
 REDUCE_LOADS = Rule(
     "loads from reduced strains",

@@ -144,7 +144,8 @@ def _balanced(
     *values, square = form(*(np.ldexp(row, -power) for row in inputs), c)
     size = np.sqrt(square)
     radius = np.ldexp(size, power)
-    return (*values,), np.maximum(size, tiny), radius, radius * radius
+    with np.errstate(over="ignore"):
+        return (*values,), np.maximum(size, tiny), radius, radius * radius
 '''
 
 RAISE = '''\

@@ -106,6 +106,8 @@ class Printer:
         (value, condition), (other, last) = expr.args
         if last != sp.true:
             raise TypeError(f"the NumPy printer takes a choice of two, not {expr}")
+        if self._scalar(condition.lhs):
+            condition = condition.reversed
         test = f"{self.text(condition.lhs)} {condition.rel_op} {self.text(condition.rhs)}"
         return f"np.where({test}, {self._number(value)}, {self._number(other)})", ATOM
 

@@ -32,12 +32,12 @@ Domain: all finite loads; strains with Q(u, v) < 1, past which the answer is
 an error.
 
 Operations a point (arithmetic, transcendental, energy share, temporaries):
-    strains                 52   4   0  18
-    loads                   41   4   0  17
+    strains                 50   4   0  17
+    loads                   42   4   0  17
     stored_energy           33   4   1  13
-    complementary_energy    43   6   1  14
-    stiffness               99   4   0  27
-    compliance             159   4   0  43
+    complementary_energy    42   6   1  13
+    stiffness              100   4   0  27
+    compliance             158   4   0  43
 """
 
 
@@ -78,11 +78,13 @@ class Constants:
     p: float
     chirality: float = field(init=False, repr=False, compare=False)
     gap: float = field(init=False, repr=False, compare=False)
-    per_gap: float = field(init=False, repr=False, compare=False)
+    per_eta_gap: float = field(init=False, repr=False, compare=False)
+    iota_beta: float = field(init=False, repr=False, compare=False)
     per_alpha: float = field(init=False, repr=False, compare=False)
     per_beta: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
+    per_gap: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p"):
@@ -101,11 +103,13 @@ class Constants:
         derived = {
             "chirality": iota / beta / eta,
             "gap": (beta**2 * eta**2 - iota**2) / beta**2 / eta**2,
-            "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
+            "per_eta_gap": beta**2 * eta / (beta**2 * eta**2 - iota**2),
+            "iota_beta": iota / beta**2,
             "per_alpha": 1 / alpha,
             "per_beta": 1 / beta,
             "per_zeta": 1 / zeta,
             "per_eta": 1 / eta,
+            "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
         }
         for name, ratio in derived.items():  # exact, then rounded once
             object.__setattr__(self, name, float(ratio))
@@ -150,11 +154,11 @@ def _reduce_loads(
     mu_3 = c.per_beta * m3
     nu_1 = c.per_zeta * n1
     nu_2 = c.per_zeta * n2
+    dilatation = c.per_eta_gap * (n3 - c.iota_beta * m3)
+    twist = mu_3 - c.chirality * dilatation
     nu_3 = c.per_eta * n3
-    twist = c.per_gap * (mu_3 - c.chirality * nu_3)
-    dilatation = c.per_gap * (nu_3 - c.chirality * mu_3)
     q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2 + nu_1**2 + nu_2**2
-    return (mu_1, mu_2, mu_3, nu_1, nu_2, nu_3, twist, dilatation, q_star)
+    return (mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3, q_star)
 
 
 def _soften(y: Array, c: Constants) -> tuple[Array, ...]:
@@ -183,10 +187,10 @@ def _reduce_strains(
     lam_1 = c.zeta * v1
     lam_2 = c.zeta * v2
     lam_3 = c.eta * stretch
-    tension = c.chirality * kappa_3 + lam_3
     torque = c.chirality * lam_3 + kappa_3
+    tension = c.chirality * torque + c.gap * lam_3
     q = c.gap * lam_3**2 + kappa_1**2 + kappa_2**2 + lam_1**2 + lam_2**2 + torque**2
-    return (kappa_1, kappa_2, lam_1, lam_2, tension, torque, q)
+    return (kappa_1, kappa_2, lam_1, lam_2, torque, tension, q)
 
 
 def _stiffen(q: Array, c: Constants) -> tuple[Array, ...]:
@@ -218,7 +222,8 @@ def _balanced(
     *values, square = form(*(np.ldexp(row, -power) for row in inputs), c)
     size = np.sqrt(square)
     radius = np.ldexp(size, power)
-    return (*values,), np.maximum(size, tiny), radius, radius * radius
+    with np.errstate(over="ignore"):
+        return (*values,), np.maximum(size, tiny), radius, radius * radius
 
 
 def _work_share(depth: Array, c: Constants) -> Array:
@@ -356,7 +361,7 @@ def _apply(
 
 def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
     """u = (gamma^p + Q*^(p/2))^(-1/p) (K^-1 (m, n))_u, v - e3 likewise (eq:uconst, eq:vconst)."""
-    (mu_1, mu_2, _, nu_1, nu_2, _, twist, dilatation), size, y, _ = _balanced(_reduce_loads, loads, c)
+    (mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _), size, y, _ = _balanced(_reduce_loads, loads, c)
     _, _, factor = _soften(y, c)
     reach = factor * y / size
     bend = c.per_alpha * reach
@@ -391,7 +396,7 @@ def _loads(strains: Rows, c: Constants, m: Array, n: Array) -> None:
     """m = gamma (1 - Q^(p/2))^(-1/p) (K (u, v - e3))_m, n likewise (eq:mconst, eq:nconst)."""
     u1, u2, u3, v1, v2, v3 = strains
     stretch = v3 - 1
-    kappa_1, kappa_2, lam_1, lam_2, tension, torque, q = _reduce_strains(u1, u2, u3, v1, v2, stretch, c)
+    kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(u1, u2, u3, v1, v2, stretch, c)
     q = _within_limit(q)
     _, _, factor = _stiffen(q, c)
     bend = c.alpha * factor
@@ -455,7 +460,7 @@ def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
     _, _, y, _ = _balanced(_reduce_loads, loads, c)
     ratio, power, factor = _soften(y, c)
     strain = factor * y
-    depth = np.log1p(power) - c.p * np.where(c.gamma >= y, 0.0, np.log(ratio))
+    depth = np.log1p(power) - c.p * np.where(y <= c.gamma, 0.0, np.log(ratio))
     np.multiply(strain * y, 1 - _work_share(depth, c), out=w_star)
 
 
@@ -484,7 +489,7 @@ def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u, v - e3)/x."""
     u1, u2, u3, v1, v2, v3 = strains
     stretch = v3 - 1
-    kappa_1, kappa_2, lam_1, lam_2, tension, torque, q = _reduce_strains(u1, u2, u3, v1, v2, stretch, c)
+    kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(u1, u2, u3, v1, v2, stretch, c)
     q = _within_limit(q)
     growth, _, factor = _stiffen(q, c)
     steep = factor * growth
@@ -547,9 +552,9 @@ def stiffness(u: ArrayLike, v: ArrayLike, constants: Constants, out: Array | Non
 
 def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y, its diagonal as sums of squares."""
-    (mu_1, mu_2, mu_3, nu_1, nu_2, nu_3, twist, dilatation), size, y, _ = _balanced(_reduce_loads, loads, c)
+    (mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3), size, y, _ = _balanced(_reduce_loads, loads, c)
     _, power, factor = _soften(y, c)
-    remain = np.where(c.gamma >= y, 1.0, power) / (power + 1)
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
     a1 = mu_1 / size
     a1_square = a1**2
     a2 = mu_2 / size
@@ -566,7 +571,7 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     c6_square = c6**2
     across = a1_square + a2_square + b1_square + b2_square
     coupled = a3_square + c.gap * c6_square
-    share = np.where(c.gamma >= y, power, 1.0) / (power + 1)
+    share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
     steep = -factor * share
     d1 = c.per_alpha * a1
     w1 = d1 * steep
