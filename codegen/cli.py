@@ -237,7 +237,7 @@ def measure(
     from rodproof.codegen.measure import survey
 
     with one_sentence():
-        path = out or places.checkout().measurement
+        path = out or places.checkout().measurement(quick=quick)
         with show.progress("measure", lines=True) as tell:
             survey.measure(path, survey.settings(quick=quick), tell)
     _written([path], as_json)
@@ -245,10 +245,11 @@ def measure(
 
 @app.command()
 def report(
+    quick: Annotated[bool, typer.Option("--quick", help="Of the quick measurement.")] = False,
     data: Annotated[
         Path | None, typer.Option(help="What `rodproof measure` wrote, if not by default.")
     ] = None,
-    out: Annotated[Path | None, typer.Option(help="Folder; docs/report by default.")] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder; beside the data by default.")] = None,
     as_json: Json = False,
 ) -> None:
     """Draw the page and the plots of a measurement, without measuring."""
@@ -256,8 +257,8 @@ def report(
     from rodproof.codegen.measure import report as reports
 
     with one_sentence():
-        source = data or places.checkout().measurement
-        _written(reports.report(source, out or places.checkout().report), as_json)
+        source = data or places.checkout().measurement(quick=quick)
+        _written(reports.report(source, out or source.parent), as_json)
 
 
 def _written(paths: list[Path], as_json: bool) -> None:

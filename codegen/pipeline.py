@@ -43,7 +43,7 @@ def run(places: Places, jobs: int, stage: Stage) -> Outcome:
     evidence = check(jobs, stage)
     generated = write_modules(places, stage)
     documents = write_documents(places, evidence, stage)
-    reports = measure(places, stage, quick=True)
+    reports = measure(places, stage)
     return Outcome(derived, evidence, generated, documents, reports)
 
 
@@ -86,10 +86,11 @@ def write_documents(
     return written
 
 
-def measure(places: Places, stage: Stage, *, quick: bool) -> tuple[Path, ...]:
-    """Measure to JSON, then draw the report from it."""
+def measure(places: Places, stage: Stage) -> tuple[Path, ...]:
+    """A quick measurement to JSON, and the report drawn from it."""
     from rodproof.codegen.measure import report, survey  # the module measured is new just now
 
+    data = places.measurement(quick=True)
     with stage("measure") as tell:
-        survey.measure(places.measurement, survey.settings(quick=quick), tell)
-    return (places.measurement, *report.report(places.measurement, places.report))
+        survey.measure(data, survey.settings(quick=True), tell)
+    return (data, *report.report(data, data.parent))

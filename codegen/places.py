@@ -20,13 +20,12 @@ class Places:
     def documents(self) -> Path:
         return self.root / "docs" / "derivation"
 
-    @property
-    def report(self) -> Path:
-        return self.root / "docs" / "report"
+    def report(self, *, quick: bool) -> Path:
+        """The full report is kept with the project; a quick one is of the day and machine."""
+        return self.root / "docs" / "report" / ("quick" if quick else "")
 
-    @property
-    def measurement(self) -> Path:
-        return self.report / "measurement.json"
+    def measurement(self, *, quick: bool) -> Path:
+        return self.report(quick=quick) / "measurement.json"
 
     def shown(self, path: Path) -> str:
         """A path as a reader in the root would type it."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 from matplotlib.axes import Axes
@@ -27,7 +28,7 @@ STYLES: dict[str, tuple[str, str]] = {
     "mpmath 30": ("#8e6bb5", "D"),
     "mpmath 50": ("#5b3a86", "D"),
 }
-SETTINGS = {
+SETTINGS: Any = {
     "svg.hashsalt": "rodproof",
     "font.size": 8.5,
     "axes.spines.top": False,
@@ -88,6 +89,7 @@ def front(found: list[Mark]) -> list[Mark]:
 
 def _panel(panel: Axes, function: str, found: list[Mark]) -> None:
     panel.set(xscale="log", yscale="log", ylim=(LEAST / 3, NO_NUMBER * 5), title=function)
+    panel.set_yticks([10.0**k for k in range(-3, 16, 3)])
     panel.axhspan(MOST, NO_NUMBER * 5, color="#f4e3e1", lw=0)
     panel.axhline(1, color="#dddddd", lw=0.8, zorder=0)
     panel.text(

@@ -1,0 +1,47 @@
+"""``rodproof run`` in a folder of its own, with a measurement of a handful of points."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from rodproof.codegen import places
+from rodproof.codegen.cli import app
+from rodproof.codegen.measure import survey
+
+TINY = replace(survey.settings(quick=True), batches=1, points=2, rounds=1, timed_points=8)
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(places, "checkout", lambda: places.Places(tmp_path))
+    monkeypatch.setattr(survey, "settings", lambda *, quick: TINY)
+    return tmp_path
+
+
+def test_run_does_all_and_says_where(here: Path) -> None:
+    result = CliRunner().invoke(app, ["run", "--json"], catch_exceptions=False)
+    assert result.exit_code == 0, result.stderr
+    rows = json.loads(result.stdout)
+    stages = [row["stage"] for row in rows]
+    assert [stage for stage in dict.fromkeys(stages) if stage != "refuted"] == [
+        *("derived", "checked", "generated", "documented", "measured")
+    ]
+    assert "constants-hypothesis" in " ".join(r["outcome"] for r in rows if r["stage"] == "refuted")
+    for row in rows:
+        if row["stage"] in ("generated", "documented", "measured"):
+            assert row["where"]
+            assert all((here / name).is_file() for name in row["where"].split())
+    assert not list(here.rglob("*.part"))
+
+
+def test_outside_a_checkout_it_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(places, "__file__", str(tmp_path / "codegen" / "places.py"))
+    result = CliRunner().invoke(app, ["run"], catch_exceptions=False)
+    assert result.exit_code == 2
+    assert "not a checkout of rodproof" in result.stderr
+    assert result.stdout == ""
