@@ -1,4 +1,4 @@
-"""LaTeX for transcriptions and derived formulas, in the paper's notation."""
+"""LaTeX for transcriptions and derived formulas, in the paper's notation and order of factors."""
 
 from __future__ import annotations
 
@@ -6,18 +6,31 @@ from typing import Any
 
 import sympy as sp
 from sympy.printing.latex import LatexPrinter
+from sympy.printing.precedence import PRECEDENCE
+
+from rodproof.derivations.notation import Chain, Every
+from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 
 _NAMES = {
     **{f"{a}{k}": f"{a}_{k}" for a in "uvmn" for k in (1, 2, 3)},
     "norm_T": r"|\boldsymbol{T}|",
-    "varphi": r"\varphi",
     "Q_mirror": r"Q_{\mathrm{mirror}}",
+    "K_inverse": "K^{-1}",
+    "k^T": r"k^{\mathsf T}",
+    "e^T": r"e^{\mathsf T}",
+    "D2W": r"D^2 W",
+    "D2Wstar": r"D^2 W^*",
 }
-_COLUMNS = dict.fromkeys("uvmn")
+_FUNCTIONS = {"W_star": "W^*", "load": r"\hat y", "dim": r"\operatorname{dim}"}
+_STANDARD = frozenset(
+    ("log", "hyper", "Abs", "sin", "cos", "tan", "cot", "csc", "acos", "asin", "atan", "exp")
+)
+_COLUMNS = frozenset("uvmn")
+_CONSTANTS = (gamma, alpha, beta, zeta, eta, iota, p)
 
 
 class _Printer(LatexPrinter):
-    """The paper's conventions: sans-serif columns, fractions for 1/x, powers kept visible."""
+    """Sans-serif columns, p/2 in exponents, real powers before fractions, gamma first."""
 
     def _print_Symbol(self, expr: sp.Symbol, style: str = "plain") -> str:
         return _NAMES.get(expr.name) or str(super()._print_Symbol(expr))
@@ -30,7 +43,100 @@ class _Printer(LatexPrinter):
         indices = " ".join(self._print(i) for i in expr.indices)
         return rf"{expr.base.label}_{{{indices}}}"
 
+    def _print_Function(self, expr: sp.Function, exp: str | None = None) -> str:
+        name = expr.func.__name__
+        if name in _STANDARD:
+            return str(super()._print_Function(expr, exp))
+        inside = ", ".join(self._print(a) for a in expr.args)
+        whole = rf"{_FUNCTIONS.get(name, name)}({inside})"
+        return whole if exp is None else rf"{whole}^{{{exp}}}"
+
+    def _print_Pow(self, expr: sp.Pow) -> str:
+        base, exponent = expr.as_base_exp()
+        if exponent.is_Rational or exponent.free_symbols != {p}:
+            return str(super()._print_Pow(expr))
+        if isinstance(base, sp.Function) and type(base).__name__ not in _STANDARD:
+            return rf"{self._print(base)}^{{{_inline(exponent)}}}"
+        return rf"{self.parenthesize(base, PRECEDENCE['Pow'])}^{{{_inline(exponent)}}}"
+
+    def _print_Mul(self, expr: sp.Mul) -> str:
+        number, rest = expr.as_coeff_Mul()
+        if number.could_extract_minus_sign():
+            return "- " + self._print(-expr)
+        integrals = [f for f in sp.Mul.make_args(rest) if isinstance(f, sp.Integral)]
+        if integrals:
+            scale = number * sp.Mul(*(f for f in sp.Mul.make_args(rest) if f not in integrals))
+            before = self._print(scale) + " " if scale != 1 else ""
+            return before + " ".join(map(self._print, integrals))
+        above, below, front = [], [], []
+        for factor in sorted(sp.Mul.make_args(rest), key=_order):
+            exponent = factor.as_base_exp()[1]
+            if exponent.is_Rational and exponent < 0:
+                below.append(1 / factor)
+            elif _is_heavy(factor):
+                front.append(factor)
+            elif factor != 1:
+                above.append(factor)
+        above = [sp.Integer(number.p)] * (number.p != 1) + above
+        below = [sp.Integer(number.q)] * (number.q != 1) + below
+        top = " ".join(map(self._factor, above)) or "1"
+        pieces = [self._factor(f) for f in front]
+        if below:
+            denominator = " ".join(map(self._factor, below)) if len(below) > 1 else self._print(below[0])
+            numerator = self._print(above[0]) if len(above) == 1 else top
+            pieces.insert(0 if not above else len(pieces), rf"\frac{{{numerator}}}{{{denominator}}}")
+        elif above:
+            position = 0 if above[0].is_number or above[0] == gamma else len(pieces)
+            pieces.insert(position, top)
+        return " ".join(pieces)
+
+    def _factor(self, expr: sp.Expr) -> str:
+        return str(self.parenthesize(expr, PRECEDENCE["Mul"]))
+
+    def _print_Chain(self, chain: Chain) -> str:
+        return str(chain._latex(self))
+
+
+def _is_heavy(factor: sp.Expr) -> bool:
+    """Real powers read better beside a fraction than in it."""
+    return not factor.as_base_exp()[1].is_Rational
+
+
+def _inline(exponent: sp.Expr) -> str:
+    """p/2, -1/p - 1: exponents on one line."""
+    return str(exponent).replace("**", "^").replace("*", " ")
+
+
+def _order(factor: sp.Expr) -> tuple[int, int, str]:
+    base = factor.as_base_exp()[0]
+    if base in _CONSTANTS:
+        return (0, _CONSTANTS.index(base), "")
+    kind = 1 if isinstance(base, sp.Add) else 2 if isinstance(base, sp.Indexed | sp.Symbol) else 3
+    return (kind, 0, str(factor))
+
 
 def latex(expr: Any) -> str:
     """One formula as LaTeX, without delimiters; same input, same text."""
-    return str(_Printer({"fold_short_frac": False, "mul_symbol": None}).doprint(expr))
+    settings = {"fold_frac_powers": True, "mul_symbol": None}
+    return str(_Printer(settings).doprint(expr))
+
+
+def rows(tree: sp.Basic) -> tuple[str, ...]:
+    """A formula as the rows of an `aligned` block, broken where claims and relations begin."""
+    if isinstance(tree, Every | sp.Tuple) and all(isinstance(a, Chain) for a in tree.args):
+        return tuple(row for claim in tree.args for row in rows(claim))
+    if isinstance(tree, Chain) and len(latex(tree)) > 90:
+        printer = _Printer({"fold_frac_powers": True})
+        marks = {"=": "=", "<": "<", "<=": r"\leq", ">": ">", ">=": r"\geq"}
+        lines = [
+            rf"&{marks[relation]} {printer.doprint(right)}" for _, relation, right in tree.links()
+        ]
+        return (rf"{printer.doprint(tree.sides[0])} {lines[0]}", *lines[1:])
+    if isinstance(tree, Chain):
+        left, _, right = latex(tree).partition(" " + _mark(tree) + " ")
+        return (rf"{left} &{_mark(tree)} {right}",)
+    return (latex(tree),)
+
+
+def _mark(chain: Chain) -> str:
+    return {"<=": r"\leq", ">=": r"\geq"}.get(chain.relations[0], chain.relations[0])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from typing import Protocol
 
 import sympy as sp
@@ -116,21 +116,27 @@ class Evidence:
         return asdict(self)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Step:
-    """One step of a derivation: the rule used, the formula reached, the statements it settles."""
+    """One step of a derivation.
+
+    rule: why the formula follows from what stands before it. formula: what is reached, in the
+    notation of the paper. check: proves the formula on its own (None for a definition).
+    statements: the ids of the printed statements that it settles.
+    """
 
     title: str
     rule: str
-    formulas: tuple[sp.Basic, ...]
+    formula: sp.Basic
+    check: Check | None = None
     statements: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Derivation:
     """A named chain of steps, with the problem stated before any algebra."""
 
     label: str
     title: str
     problem: str
-    steps: tuple[Step, ...] = field(default=())
+    steps: tuple[Step, ...]

@@ -382,3 +382,21 @@ class Formalised:
 
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
         return None
+
+
+@dataclass(frozen=True, eq=False)
+class MatrixIdentity:
+    """Two matrices agree entry by entry, exactly."""
+
+    left: sp.Matrix
+    right: sp.Matrix
+    positive: tuple[sp.Expr, ...]
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        field = Field(self.positive)
+        pairs = zip(self.left, self.right, strict=True)
+        agree = all(field.equal(a, b) for a, b in pairs)
+        return Decision(agree or None, True, f"exact identity of {len(self.left)} entries")
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        return None

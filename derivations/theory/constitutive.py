@@ -194,3 +194,22 @@ ELEMENTARY: dict[sp.Rational, tuple[sp.Expr, sp.Expr]] = {
     sp.Integer(2): (gamma * (1 - sp.sqrt(1 - x**2)), sp.sqrt(gamma**2 + y**2) - gamma),
     sp.Integer(1): (gamma * (-x - sp.log(1 - x)), y - gamma * sp.log(1 + y / gamma)),
 }
+
+
+@cache
+def stiffness_structure() -> sp.ImmutableMatrix:
+    """gamma (1 - q)^{-1/p} (K + q/(1 - q) k k^T/Q) with q = Q^{p/2}, k = K eps."""
+    q, Q = quadratic_form() ** (p / 2), quadratic_form()
+    k = stiffness_at_rest() * sp.Matrix(STRAIN_FROM_REST)
+    return sp.ImmutableMatrix(
+        gamma * (1 - q) ** (-1 / p) * (stiffness_at_rest() + q / (1 - q) / Q * k * k.T)
+    )
+
+
+@cache
+def compliance_structure() -> sp.ImmutableMatrix:
+    """(gamma^p + q)^{-1/p} (K^{-1} - q/(gamma^p + q) e e^T/Q*) with q = Q*^{p/2}, e = K^{-1} sigma."""
+    q, Qstar = dual_form() ** (p / 2), dual_form()
+    e = compliance_at_rest() * sp.Matrix(LOADS)
+    scale = gamma**p + q
+    return sp.ImmutableMatrix(scale ** (-1 / p) * (compliance_at_rest() - q / scale / Qstar * e * e.T))
