@@ -86,10 +86,10 @@ def derive(
 ) -> None:
     """Show derived objects and the steps that lead to them."""
     from rodproof.codegen import explain
-    from rodproof.derivations.theory import derivations
+    from rodproof.derivations import chapters
 
     with one_sentence():
-        found = [derivations.derive(label) for label in labels or derivations.labels()]
+        found = [chapters.derive(label) for label in labels or chapters.labels()]
     if as_json or form is Format.json:
         show.as_json(explain.data(found))
     else:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
-import sympy as sp
+from sympy.matrices.matrixbase import MatrixBase
+from sympy.printing.str import StrPrinter
 
 from rodproof.derivations.latex import latex as latex_of
+from rodproof.derivations.notation import Chain, Every, Iff, Implies, Partial, PositiveDefinite
 from rodproof.derivations.records import Derivation, Step
-
-Format = Callable[[Sequence[Derivation]], str]
 
 
 def text(derivations: Sequence[Derivation]) -> str:
-    """Each step as a sentence with its formulas below."""
+    """Each step as a sentence with its formula below."""
     return "\n\n".join(
         "\n".join(
             [
@@ -28,15 +28,35 @@ def text(derivations: Sequence[Derivation]) -> str:
 
 def _step_text(number: int, step: Step) -> str:
     settles = f"  ({', '.join(step.statements)})" if step.statements else ""
-    formulas = (sp.pretty(formula, wrap_line=False) for formula in step.formulas)
-    lines = "\n\n".join(formulas).splitlines()
-    return "\n".join(
-        [
-            f"\n{number}. {step.title}{settles}",
-            f"   {step.rule}",
-            *(f"      {line}" for line in lines),
-        ]
-    )
+    formula = _Text().doprint(step.formula).replace("\n", "\n      ")
+    return f"\n{number}. {step.title}{settles}\n   {step.rule}\n      {formula}"
+
+
+class _Text(StrPrinter):
+    """The project's notation on one line."""
+
+    def _print_Chain(self, chain: Chain) -> str:
+        rest = (f" {relation} {self._print(right)}" for _, relation, right in chain.links())
+        return str(self._print(chain.sides[0])) + "".join(rest)
+
+    def _print_Every(self, every: Every) -> str:
+        return "\n".join(self._print(part) for part in every.args)
+
+    def _print_MatrixBase(self, matrix: MatrixBase) -> str:
+        return "\n" + str(matrix.table(self, rowsep="\n"))
+
+    def _print_Implies(self, claim: Implies) -> str:
+        return " implies ".join(self._print(part) for part in claim.args)
+
+    def _print_Iff(self, claim: Iff) -> str:
+        return " if and only if ".join(self._print(part) for part in claim.args)
+
+    def _print_PositiveDefinite(self, claim: PositiveDefinite) -> str:
+        return f"{self._print(claim.args[0])} is positive definite"
+
+    def _print_Partial(self, derivative: Partial) -> str:
+        function, variable = (self._print(part) for part in derivative.args)
+        return f"d {function}/d {variable}"
 
 
 def latex(derivations: Sequence[Derivation]) -> str:
@@ -45,21 +65,16 @@ def latex(derivations: Sequence[Derivation]) -> str:
 
 
 def _section_latex(derivation: Derivation) -> str:
-    steps = [
-        "\n".join(
-            [
-                rf"\item {step.title}: {step.rule}",
-                *(rf"\[ {latex_of(formula)} \]" for formula in step.formulas),
-            ]
-        )
+    steps = (
+        f"\\item {step.title}: {step.rule}\n\\[ {latex_of(step.formula)} \\]"
         for step in derivation.steps
-    ]
+    )
     listed = "\n".join([r"\begin{enumerate}", *steps, r"\end{enumerate}"])
     return f"\\subsection*{{{derivation.title}}}\n{derivation.problem}\n{listed}"
 
 
 def data(derivations: Sequence[Derivation]) -> list[dict[str, object]]:
-    """Plain data for JSON: formulas as LaTeX and as SymPy text."""
+    """Plain data for JSON: formulas as LaTeX and as text."""
     return [
         {
             "label": derivation.label,
@@ -70,8 +85,8 @@ def data(derivations: Sequence[Derivation]) -> list[dict[str, object]]:
                     "title": step.title,
                     "rule": step.rule,
                     "statements": list(step.statements),
-                    "latex": [latex_of(formula) for formula in step.formulas],
-                    "sympy": [str(formula) for formula in step.formulas],
+                    "latex": latex_of(step.formula),
+                    "text": _Text().doprint(step.formula),
                 }
                 for step in derivation.steps
             ],

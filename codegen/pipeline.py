@@ -17,9 +17,8 @@ from pathlib import Path
 from rodproof.codegen import document, generate
 from rodproof.codegen.places import Places
 from rodproof.codegen.show import Tell
-from rodproof.derivations import ledger
+from rodproof.derivations import chapters, ledger
 from rodproof.derivations.records import Derivation, Evidence
-from rodproof.derivations.theory import derivations
 
 
 @dataclass(frozen=True)
@@ -49,12 +48,12 @@ def run(places: Places, jobs: int, stage: Stage) -> Outcome:
 
 def derive(stage: Stage) -> tuple[Derivation, ...]:
     """Every derivation of the theory."""
-    labels = derivations.labels()
+    labels = chapters.labels()
     with stage("derive") as tell:
         derived = []
         for done, label in enumerate(labels):
             tell(label, done, len(labels))
-            derived.append(derivations.derive(label))
+            derived.append(chapters.derive(label))
         tell("", len(labels), len(labels))
     return tuple(derived)
 
