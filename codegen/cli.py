@@ -126,15 +126,26 @@ def check(
 
 
 @app.command()
-def errata(section: Section = None, as_json: Json = False, jobs: Jobs = CORES) -> None:
+def errata(
+    section: Section = None,
+    out: Annotated[Path | None, typer.Option(help="Write it as Markdown to this file.")] = None,
+    as_json: Json = False,
+    jobs: Jobs = CORES,
+) -> None:
     """What is wrong in print, with counterexamples and corrections, and what needs a reading."""
+    from rodproof.codegen.document import errata as page
+    from rodproof.codegen.files import write_text
     from rodproof.derivations import ledger
 
     with one_sentence():
         chosen = ledger.statements(section)
     with show.progress("check") as tell:
         evidence = ledger.check(chosen, mutants=False, jobs=jobs, progress=tell)
-    if as_json:
+    if out:
+        with one_sentence():
+            write_text(out, page.render(evidence))
+        _written([out], as_json)
+    elif as_json:
         found = [row for row in evidence if row.verdict in ("refuted", "reading")]
         show.as_json([row.as_row() for row in found])
     else:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from sympy.matrices.matrixbase import MatrixBase
 from sympy.printing.str import StrPrinter
 
+from rodproof.codegen.document.article import fragment
 from rodproof.derivations.latex import latex as latex_of
 from rodproof.derivations.notation import Chain, Every, Iff, Implies, Partial, PositiveDefinite
 from rodproof.derivations.records import Derivation, Step
@@ -60,17 +61,8 @@ class _Text(StrPrinter):
 
 
 def latex(derivations: Sequence[Derivation]) -> str:
-    """Sections with numbered steps, to be pasted into an article that loads amsmath."""
-    return "\n\n".join(_section_latex(derivation) for derivation in derivations)
-
-
-def _section_latex(derivation: Derivation) -> str:
-    steps = (
-        f"\\item {step.title}: {step.rule}\n\\[ {latex_of(step.formula)} \\]"
-        for step in derivation.steps
-    )
-    listed = "\n".join([r"\begin{enumerate}", *steps, r"\end{enumerate}"])
-    return f"\\subsection*{{{derivation.title}}}\n{derivation.problem}\n{listed}"
+    """Subsections to be pasted into an article that loads amsmath and adjustbox."""
+    return "\n\n".join(fragment(derivation) for derivation in derivations)
 
 
 def data(derivations: Sequence[Derivation]) -> list[dict[str, object]]:
