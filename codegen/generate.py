@@ -1,18 +1,17 @@
 """From a scene to its module: every arrow of the code generator in one place.
 
-    scene --lower--> naive kernels --PASSES--> kernels --print_module--> text --write--> file
+scene --lower--> naive kernels --PASSES--> kernels --print_module--> text --write--> file
 """
 
 from __future__ import annotations
 
 import difflib
-import os
-import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from rodproof.codegen import scene as scenes
+from rodproof.codegen import files as disk
+from rodproof.codegen import scene as toml
 from rodproof.codegen.kernel import Kernel, validate
 from rodproof.codegen.lower import lower
 from rodproof.codegen.passes.name import name
@@ -29,7 +28,6 @@ PASSES: tuple[Callable[[Kernel], Kernel], ...] = (stabilise, share, drop_dead, o
 
 FOLDER = "scenes"
 INIT = '"""One module a scene; every byte is written by rodproof.codegen."""\n'
-KEPT = ("__init__.py",)
 
 
 @dataclass(frozen=True)
@@ -65,7 +63,7 @@ def files(scenes: Iterable[Scene], verdicts: Mapping[str, str] | None = None) ->
 
 def committed_scenes() -> tuple[Scene, ...]:
     """Every scene that comes with the project."""
-    return tuple(scenes.committed(name) for name in scenes.committed_names())
+    return tuple(toml.committed(name) for name in toml.committed_names())
 
 
 def write(
@@ -75,22 +73,15 @@ def write(
 
     Everything is rendered before anything is written, and each file is replaced in one step.
     """
-    texts = files(scenes, verdicts)
-    return [write_text(root / path, text) for path, text in texts.items()]
+    texts = {root / path: text for path, text in files(scenes, verdicts).items()}
+    for path, text in texts.items():
+        disk.write_text(path, text)
+    return list(texts)
 
 
 def write_text(path: Path, text: str) -> Path:
-    """Writes a file whole or not at all: to a temporary file beside it, then `os.replace`."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
+    """Writes one module, say of a user's own scene, whole or not at all; returns its path."""
+    disk.write_text(path, text)
     return path
 
 

@@ -69,6 +69,22 @@ class Limit:
 
 
 @dataclass(frozen=True)
+class Dyad:
+    """A hint: entry (i, j) of ``array`` is ``weight*vector[i]*vector[j]``, alone or plus a term.
+
+    Entries may also be free of it. The outputs say everything; a target may use the hint to
+    compute a row at a time.
+    """
+
+    array: str
+    weight: str
+    vector: tuple[str, ...]
+
+    def term(self, i: int, j: int) -> sp.Expr:
+        return symbol(self.weight) * symbol(self.vector[i]) * symbol(self.vector[j])
+
+
+@dataclass(frozen=True)
 class Output:
     """Entry ``index`` of the output array ``array``; an empty index is the whole array."""
 
@@ -80,7 +96,7 @@ class Output:
 
 @dataclass(frozen=True)
 class Kernel:
-    """One public function: inputs, assignments in order, outputs, gauge and limit.
+    """One public function: inputs, assignments in order, outputs, gauge, limit, dyad.
 
     ``constants`` are assignments in the constants alone, evaluated once per set of constants.
     """
@@ -92,6 +108,7 @@ class Kernel:
     gauge: Gauge | None = None
     limit: Limit | None = None
     constants: tuple[Assignment, ...] = ()
+    dyad: Dyad | None = None
 
     def expressions(self) -> Iterator[sp.Expr]:
         """Every expression evaluated per point."""
@@ -108,8 +125,8 @@ class Kernel:
 
     def statements(self) -> tuple[str, ...]:
         """The statements the kernel rests on, each once, in order of use."""
-        every = (s for a in (*self.body, *self.outputs) for s in a.statements)
-        return tuple(dict.fromkeys(every))
+        every = [a.statements for a in self.body] + [o.statements for o in self.outputs]
+        return tuple(dict.fromkeys(s for statements in every for s in statements))
 
 
 def symbol(name: str) -> sp.Symbol:

@@ -20,7 +20,14 @@ x, y = theory.x, theory.y
 factor, q, q_star = symbol("factor"), symbol("q"), symbol("q_star")
 
 #: The statements each array's components rest on, in the order of the components.
-STRAIN_STATEMENTS = ("const-u-mu", "const-u-mu", "const-u-3", "const-v-mu", "const-v-mu", "const-v-3")
+STRAIN_STATEMENTS = (
+    "const-u-mu",
+    "const-u-mu",
+    "const-u-3",
+    "const-v-mu",
+    "const-v-mu",
+    "const-v-3",
+)
 LOAD_STATEMENTS = ("const-m-mu", "const-m-mu", "const-m-3", "const-n-mu", "const-n-mu", "const-n-3")
 HESSIAN_STATEMENTS = (
     ("hess-m-u", "hess-m-u", "hess-m-u3", "hess-m-v", "hess-m-v", "hess-m-v3"),
@@ -36,7 +43,7 @@ STRAIN_NAMES = tuple(s.name for s in STRAINS)
 
 LOAD_GAUGE = Gauge("reduce_loads", LOAD_NAMES, "q_star", "size", "y")
 STRAIN_GAUGE = Gauge("reduce_strains", (*STRAIN_NAMES[:5], "stretch"), "q", "size", "x")
-LIMIT = Limit("q", "the strains must satisfy Q(u, v) < 1 (eq:strainlimiting)")
+LIMIT = Limit("q", "strains must satisfy Q(u, v) < 1")
 
 
 def lower(scene: Scene) -> tuple[Kernel, ...]:

@@ -62,7 +62,8 @@ class Scene:
 
 def committed_names() -> tuple[str, ...]:
     """Names of the scenes that come with the project, sorted."""
-    names = (entry.name for entry in resources.files("rodproof.codegen").joinpath("scenes").iterdir())
+    folder = resources.files("rodproof.codegen").joinpath("scenes")
+    names = (entry.name for entry in folder.iterdir())
     return tuple(sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")))
 
 

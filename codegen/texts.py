@@ -41,8 +41,7 @@ class FunctionText:
 
 
 _LOADS_IN = "m (3, ...) in force times length and n (3, ...) in force, any finite values."
-_STRAINS_IN = """u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1; else
-    ValueError, and what ``out`` holds is unspecified."""
+_STRAINS_IN = "u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1 (eq:strainlimiting)."
 
 TEXTS = {
     "strains": FunctionText(

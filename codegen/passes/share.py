@@ -61,7 +61,9 @@ def _share_step(kernel: Kernel, step: str) -> Kernel:
         if _worth_a_name(node) and not node.free_symbols <= fixed
     )
     repeated = sorted((n for n, c in counts.items() if c > 1), key=sp.default_sort_key)
-    names = {node: symbol(f"t{k}_{step}" if step else f"t{k}") for k, node in enumerate(repeated, 1)}
+    names = {
+        node: symbol(f"t{k}_{step}" if step else f"t{k}") for k, node in enumerate(repeated, 1)
+    }
     added = tuple(Assignment(new.name, node, (), step) for node, new in names.items())
     body = tuple(
         replace(a, expr=a.expr.xreplace(names)) if a.step == step else a for a in kernel.body

@@ -13,7 +13,7 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
 from rodproof.codegen import lower
-from rodproof.codegen.kernel import Assignment, Kernel, KernelError, log_max, symbol, tiny
+from rodproof.codegen.kernel import Assignment, Dyad, Kernel, KernelError, log_max, symbol, tiny
 from rodproof.codegen.primitives import WorkShare
 from rodproof.derivations.symbols import (
     LOADS,
@@ -65,6 +65,7 @@ class Rule:
     definitions: tuple[Assignment, ...]
     why: str
     constants: tuple[Assignment, ...] = ()
+    dyad: Dyad | None = None
 
 
 def stabilise(kernel: Kernel) -> Kernel:
@@ -85,7 +86,10 @@ def apply(rule: Rule, kernel: Kernel) -> Kernel:
     fixed = {a.name for a in kernel.constants}
     constants = tuple(a for a in rule.constants if a.name not in fixed)
     return replace(
-        changed, body=(*added, *changed.body), constants=(*kernel.constants, *constants)
+        changed,
+        body=(*added, *changed.body),
+        constants=(*kernel.constants, *constants),
+        dyad=rule.dyad or kernel.dyad,
     )
 
 
@@ -312,11 +316,13 @@ COMPLEMENT_COMPLIANCE = Rule(
         Assignment(
             "remain", sp.Piecewise((1, y <= gamma), (power, True), evaluate=False) / (1 + power)
         ),
+        Assignment("per_size", 1 / size),
         *(
-            Assignment(name, reduced / size)
+            Assignment(name, symbol("per_size") * reduced)
             for name, reduced in zip(
                 ("a1", "a2", "a3", "b1", "b2", "b3", "c3", "c6"),
-                (mu_1, mu_2, mu_3, nu_1, nu_2, nu_3, twist, dilatation),
+                # without a load any direction serves, and the floor makes it this one
+                (mu_1 + tiny, mu_2, mu_3, nu_1, nu_2, nu_3, twist, dilatation),
                 strict=True,
             )
         ),
@@ -340,50 +346,54 @@ DIRECT_COMPLIANCE = Rule(
 DIRECT_STIFFNESS = Rule(
     "load direction from the reduced strains",
     tuple(
-        (row / x, modulus * k / x)
-        for row, k, modulus in zip(
-            s, (kappa_1, kappa_2, torque, lam_1, lam_2, tension), moduli, strict=True
+        (row / x, answer * reduced)
+        for row, answer, reduced in zip(
+            s, answers, (kappa_1, kappa_2, torque, lam_1, lam_2, tension), strict=True
         )
     ),
-    (TENSION,),
+    (
+        TENSION,
+        Assignment("per_x", 1 / x),
+        *(
+            Assignment(answer.name, modulus * symbol("per_x"))
+            for answer, modulus in dict(zip(answers, moduli, strict=True)).items()
+        ),
+    ),
     "beta^2 u3 + iota (v3 - 1) forms squares of constants that may leave the range of numbers",
     CHIRAL_CONSTANTS,
 )
 
 
-def _rank_one(sign: int, along: tuple[sp.Symbol, ...], kept: tuple[Pair, ...]) -> Rule:
-    """One product an entry: the direction times factor and weight is formed once a row."""
-    w = tuple(symbol(f"w{i}") for i in range(1, 7))
-    pairs = tuple(
-        (sign * factor * share * along[i] * along[j], w[i] * along[j])
-        for i in range(6)
-        for j in range(i + 1, 6)
-        if (i, j) != (2, 5)
-    )
-    used = range(6) if kept else range(5)
-    return Rule(
-        "rank-one term by rows",
-        pairs + kept,
-        (
-            Assignment("steep", sign * factor * share),
-            *(Assignment(w[i].name, symbol("steep") * along[i]) for i in used),
-        ),
-        "each entry would take three products",
-    )
-
-
-def _stiff_pairs() -> tuple[Pair, ...]:
-    w = tuple(symbol(f"w{i}") for i in range(1, 7))
+def _rank_one(name: str, sign: int, dyad: Dyad, own: tuple[tuple[int, int], ...]) -> Rule:
+    """The rank-one term with its factor and weight in one name; ``own`` entries keep K's part."""
+    along = tuple(map(symbol, dyad.vector))
     rest = theory.stiffness_at_rest()
-    own = (*((i, i) for i in range(6)), (2, 5))
-    return tuple(
-        (factor * (rest[i, j] + share * t[i] * t[j]), factor * rest[i, j] + w[i] * t[j])
+    off = ((i, j) for i in range(6) for j in range(i + 1, 6) if (i, j) != (2, 5))
+    pairs = tuple((sign * factor * share * along[i] * along[j], dyad.term(i, j)) for i, j in off)
+    kept = tuple(
+        (
+            factor * (rest[i, j] + share * along[i] * along[j]),
+            factor * rest[i, j] + dyad.term(i, j),
+        )
         for i, j in own
     )
+    definitions = (Assignment(dyad.weight, sign * factor * share),)
+    why = "each entry would take two more products"
+    return Rule(name, pairs + kept, definitions, why, (), dyad)
 
 
-RANK_ONE_COMPLIANCE = _rank_one(-1, d, ())
-RANK_ONE_STIFFNESS = _rank_one(1, t, _stiff_pairs())
+RANK_ONE_COMPLIANCE = _rank_one(
+    "rank-one term of the compliance",
+    -1,
+    Dyad("soft", "steep", tuple(s.name for s in d)),
+    (),
+)
+RANK_ONE_STIFFNESS = _rank_one(
+    "rank-one term of the stiffness",
+    1,
+    Dyad("stiff", "steep", tuple(s.name for s in t)),
+    (*((i, i) for i in range(6)), (2, 5)),
+)
 
 RULES: dict[str, tuple[Rule, ...]] = {
     "strains": (COMPLETE_DUAL_FORM, SCALE_RADIAL_FACTOR, REDUCE_STRAINS),

@@ -2,24 +2,26 @@
 
 A function comes out as a private body, which works on one block of points in the order of the
 kernel, and a public function that checks, broadcasts and runs the body over blocks. A step that
-kernels share is printed once, as a private function of its own.
+kernels share is printed once, as a private function of its own; steps that a gauge governs are
+called through `_balanced`.
 """
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
 from rodproof.codegen.count import cost
-from rodproof.codegen.kernel import Assignment, Kernel, KernelError
+from rodproof.codegen.kernel import Assignment, Kernel, KernelError, Output
 from rodproof.codegen.passes.order import order
 from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.scene import Scene
 from rodproof.codegen.targets import numpy_template as template
-from rodproof.codegen.targets.printer import Printer, wrapped
-from rodproof.codegen.texts import STATEMENT_LABELS, STEP_TEXTS, TEXTS, FunctionText
+from rodproof.codegen.targets.printer import PRODUCT, Printer, wrapped
+from rodproof.codegen.texts import STATEMENT_LABELS, STEP_TEXTS, TEXTS
 from rodproof.derivations.symbols import CONSTANTS
 
 INDENT = "    "
@@ -27,34 +29,37 @@ INDENT = "    "
 
 @dataclass(frozen=True)
 class Step:
-    """A step as printed: the union of what the kernels assign in it."""
+    """A step as printed: the union of what the kernels assign in it.
+
+    ``rows`` says that its inputs are the six rows of a load or a strain.
+    """
 
     name: str
     inputs: tuple[str, ...]
     body: tuple[Assignment, ...]
     results: tuple[str, ...]
 
+    @property
+    def rows(self) -> bool:
+        return len(self.inputs) == 6
+
 
 def print_module(
     scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str] | None = None
 ) -> str:
     """The module's text; ``verdicts`` adds a verdict to each statement of the header."""
-    printer = Printer(_spelling(kernels))
     steps = {name: _step(name, kernels) for name in _step_names(kernels)}
+    printer = Printer(_spelling(kernels))
     limited = [kernel for kernel in kernels if kernel.limit]
     energies = any(expr.has(WorkShare) for kernel in kernels for expr in kernel.expressions())
-    cached = "from functools import cached_property\n" if energies else ""
     raising = bool(limited) and scene.at_limit == "raise"
     parts = [
-        header(scene, kernels, verdicts or {}),
-        template.IMPORTS.replace("$cached_import\n", cached),
+        header(scene, kernels, verdicts or {}) + "\n\n" + _imports(energies),
         _constants(kernels) + (template.WORK_SHARE_TABLES if energies else ""),
         *(_step_text(step, printer) for step in steps.values()),
     ]
-    if any(kernel.gauge for kernel in kernels):
-        parts.append(template.BALANCED)
-    if energies:
-        parts.append(template.WORK_SHARE)
+    parts += [template.BALANCED] if any(kernel.gauge for kernel in kernels) else []
+    parts += [template.WORK_SHARE] if energies else []
     if limited:
         parts.append(template.RAISE if raising else template.NAN)
     if raising:
@@ -62,31 +67,41 @@ def print_module(
     parts.append(template.APPLY.substitute(run=template.RUN_RAISE if raising else template.RUN))
     for kernel in kernels:
         parts += [_body(kernel, steps, printer), _public(kernel)]
-    return "\n\n".join(part.rstrip("\n") + "\n" for part in parts)
+    return "\n\n\n".join(part.strip("\n") for part in parts) + "\n"
 
 
 def header(scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str]) -> str:
     """The module's docstring: scene, command, statements, domain, operation counts."""
     statements = dict.fromkeys(s for kernel in kernels for s in kernel.statements())
-    lines = [f'"""{scene.summary}', "", f"Scene {scene.name}, written by: rodproof generate {scene.name}", ""]
-    lines += ["Statements it rests on (paper label" + (", verdict):" if verdicts else "):")]
-    lines += [f"    {_statement(s, verdicts)}" for s in statements]
-    lines += ["", "Domain: all finite loads; strains with Q(u, v) < 1, past which the answer is"]
-    lines += ["an error." if scene.at_limit == "raise" else "nan."]
-    lines += ["", "Operations a point (arithmetic, transcendental, energy share, temporaries):"]
+    cited = "; ".join(_statement(s, verdicts) for s in statements)
+    noted = "paper label, verdict; as corrected if refuted" if verdicts else "paper label"
+    answer = "an error" if scene.at_limit == "raise" else "nan"
+    lines = [
+        f'"""{scene.summary}',
+        "",
+        f"Scene {scene.name}, made by: rodproof generate {scene.name}",
+        "",
+        *textwrap.wrap(f"Statements it rests on ({noted}): {cited}.", 98, break_on_hyphens=False),
+        "",
+        f"Domain: all finite loads; strains with Q(u, v) < 1, and {answer} at and past that limit.",
+        "",
+        "Operations a point: arithmetic, transcendental, energy shares, temporaries",
+    ]
     for kernel in kernels:
         c = cost(kernel)
-        lines += [
-            f"    {kernel.name:<22}{c.arithmetic:>4}{c.transcendental:>4}{c.special:>4}"
-            f"{c.temporaries:>4}"
-        ]
+        counts = (c.arithmetic, c.transcendental, c.special, c.temporaries)
+        lines.append(f"    {kernel.name:<20}" + "".join(f"{count:>5}" for count in counts))
     return "\n".join([*lines, '"""'])
 
 
 def _statement(statement: str, verdicts: Mapping[str, str]) -> str:
-    label = STATEMENT_LABELS.get(statement, "")
-    notes = ", ".join(note for note in (label, verdicts.get(statement, "")) if note)
-    return f"{statement} ({notes})" if notes else statement
+    notes = [STATEMENT_LABELS.get(statement, ""), verdicts.get(statement, "")]
+    return statement + "".join(f" {note}" for note in notes if note)
+
+
+def _imports(energies: bool) -> str:
+    cached = "from functools import cached_property\n" if energies else ""
+    return template.IMPORTS.replace("$cached_import\n", cached)
 
 
 def _spelling(kernels: tuple[Kernel, ...]) -> dict[str, str]:
@@ -98,7 +113,8 @@ def _constants(kernels: tuple[Kernel, ...]) -> str:
     """The Constants record with the fields that the kernels derive from it."""
     derived = {a.name: a.expr for kernel in kernels for a in kernel.constants}
     printer = Printer({})
-    fields = [f"    {name}: float = field(init=False, repr=False, compare=False)" for name in derived]
+    hidden = "float = field(init=False, repr=False, compare=False)"
+    fields = [f"    {name}: {hidden}" for name in derived]
     values = [f'            "{name}": {printer.text(expr)},' for name, expr in derived.items()]
     return template.CONSTANTS.substitute(
         derived_fields="\n".join(fields), derived_values="\n".join(values)
@@ -111,181 +127,199 @@ def _step_names(kernels: tuple[Kernel, ...]) -> tuple[str, ...]:
 
 def _step(name: str, kernels: tuple[Kernel, ...]) -> Step:
     """The step as the kernels together need it; they must agree on every name."""
+    users = [kernel for kernel in kernels if any(a.step == name for a in kernel.body)]
     body: dict[str, Assignment] = {}
-    inputs: tuple[str, ...] = ()
-    wanted: set[str] = set()
-    for kernel in kernels:
-        mine = [a for a in kernel.body if a.step == name]
-        if not mine:
-            continue
-        for a in mine:
-            if body.setdefault(a.name, a).expr != a.expr:
-                raise KernelError(f"step {name}: kernels disagree on {a.name!r}")
-        later = [a.expr for a in kernel.body if a.step != name] + [o.expr for o in kernel.outputs]
-        wanted |= {s.name for expr in later for s in expr.free_symbols}
-        inputs = kernel.gauge.inputs if kernel.gauge and kernel.gauge.step == name else inputs
-        ends = kernel.gauge or kernel.limit
-        last = (kernel.gauge.square if kernel.gauge else kernel.limit.quantity) if ends else ""  # type: ignore[union-attr]
-        wanted |= {last} & set(body)
-        example = kernel
-    ordered = order(replace(example, body=tuple(body.values()))).body
+    for a in (a for kernel in users for a in kernel.body if a.step == name):
+        if body.setdefault(a.name, a).expr != a.expr:
+            raise KernelError(f"step {name}: kernels disagree on {a.name!r}")
+    wanted = set().union(*(_used_outside(kernel, name) for kernel in users)) & set(body)
+    ordered = order(replace(users[0], body=tuple(body.values()))).body
+    inputs = users[0].inputs
+    preparing = {a.name: a for a in users[0].body if not a.step}
     free = {s.name for a in ordered for s in a.expr.free_symbols} - set(body)
-    known = set(_spelling(kernels)) | {"tiny", "log_max"}
-    results = tuple(a.name for a in ordered if a.name in wanted)
-    return Step(name, inputs or tuple(sorted(free - known)), ordered, results)
+    known = {*_spelling(kernels), "tiny", "log_max"}
+    arguments = [n for n in (*inputs, *preparing) if n in free] or sorted(free - known)
+    return Step(name, tuple(arguments), ordered, tuple(a.name for a in ordered if a.name in wanted))
+
+
+def _used_outside(kernel: Kernel, step: str) -> set[str]:
+    """Names that the kernel needs from a step: later, for its gauge, or for its limit."""
+    later = [a.expr for a in kernel.body if a.step != step] + [o.expr for o in kernel.outputs]
+    used = {s.name for expr in later for s in expr.free_symbols}
+    used |= {kernel.limit.quantity} if kernel.limit else set()
+    return used | ({kernel.gauge.square} if kernel.gauge else set())
 
 
 def _step_text(step: Step, printer: Printer) -> str:
-    arguments = ", ".join(f"{name}: Array" for name in step.inputs)
-    returned = "Array" if len(step.results) == 1 else "tuple[Array, ...]"
-    lines = wrapped(f"def _{step.name}(", [*(f"{n}: Array" for n in step.inputs), "c: Constants"], f") -> {returned}:", ", ", "")
-    del arguments
-    lines += [f'    """{STEP_TEXTS[step.name]}"""']
+    """A step as a private function that returns a tuple, its last result being the square."""
+    taken = f"{_rows(step.inputs)}: Rows" if step.rows else f"{step.inputs[0]}: Array"
+    lines = [f"def _{step.name}({taken}, c: Constants) -> Rows:"]
+    lines += [f'{INDENT}"""{STEP_TEXTS[step.name]}"""']
+    if step.rows:
+        lines += [f"{INDENT}{', '.join(step.inputs)} = {_rows(step.inputs)}"]
     used = {s.name for a in step.body for s in a.expr.free_symbols}
-    first = step.inputs[0]
-    if "tiny" in used:
-        lines += [f"    tiny = TINY[{first}.dtype]"]
-    if "log_max" in used:
-        lines += [f"    log_max = LOG_MAX[{first}.dtype]"]
+    for limit in sorted({"tiny", "log_max"} & used):
+        lines += [f"{INDENT}{limit} = {limit.upper()}[{step.inputs[0]}.dtype]"]
     lines += [line for a in step.body for line in _assign(a, printer)]
-    lines += wrapped("return (", list(step.results), ")", ", ", INDENT) if len(step.results) > 1 else [f"    return {step.results[0]}"]
-    return "\n".join(lines).replace("return (", "return (")
+    lines += [f"{INDENT}return {', '.join(step.results)}"]
+    return "\n".join(lines)
+
+
+def _rows(inputs: tuple[str, ...]) -> str:
+    """What six rows are called: loads, strains, or strains from rest."""
+    return "loads" if inputs[0] == "m1" else "strains" if inputs[5] == "v3" else "rest"
 
 
 def _assign(a: Assignment, printer: Printer) -> list[str]:
     plain = f"{INDENT}{a.name} = {printer.text(a.expr)}"
-    if len(plain) <= 100:
-        return [plain]
-    return wrapped(f"{a.name} = (", printer.terms(a.expr), ")", " ", INDENT)
+    return [plain] if len(plain) <= 100 else _broken(f"{a.name} = (", a.expr, printer)
 
 
-def _call(step: Step, kernel: Kernel, needed: set[str]) -> list[str]:
+def _broken(opening: str, expr: sp.Expr, printer: Printer) -> list[str]:
+    return wrapped(opening, printer.terms(expr), ")", " ", INDENT)
+
+
+def _call(step: Step, kernel: Kernel) -> list[str]:
     """The call of a step, with the limit's guard where its quantity comes out of it."""
+    needed = _used_outside(replace(kernel, gauge=None), step.name)
     gauge = kernel.gauge if kernel.gauge and kernel.gauge.step == step.name else None
     names = [name if name in needed else "_" for name in step.results]
-    if gauge:
-        values = names[:-1]
-        inner = f"({', '.join(values)}{',' if len(values) == 1 else ''})"
-        size, radius, square = (
-            n if n in needed else "_" for n in (gauge.norm, gauge.radius, gauge.square)
-        )
-        inputs = _gauge_inputs(kernel, gauge.inputs)
-        if set(values) == {"_"}:
-            inner = "_"
-        lines = [f"{INDENT}{inner}, {size}, {radius}, {square} = _balanced(_{step.name}, {inputs}, c)"]
+    given = _rows(step.inputs) if step.rows else step.inputs[0]
+    if not gauge:
+        left = ", ".join(names) if set(names[:-1]) != {"_"} else f"*_, {names[-1]}"
+        lines = [f"{left} = _{step.name}({given}, c)"]
     else:
-        left = ", ".join(names)
-        lines = [f"{INDENT}{left} = _{step.name}({', '.join(step.inputs)}, c)"]
-    limit = kernel.limit
-    if limit and limit.quantity in step.results:
-        lines += [f"{INDENT}{limit.quantity} = _within_limit({limit.quantity})"]
-    return lines
-
-
-def _gauge_inputs(kernel: Kernel, inputs: tuple[str, ...]) -> str:
-    return _rows(kernel) if inputs == kernel.inputs else f"({', '.join(inputs)})"
-
-
-def _rows(kernel: Kernel) -> str:
-    return "loads" if kernel.inputs[0] == "m1" else "strains"
+        values = names[:-1]
+        radii = [n if n in needed else "_" for n in (gauge.norm, gauge.radius, gauge.square)]
+        call = f"{', '.join(radii)} = _balanced(_{step.name}, {given}, c)"
+        if set(values) == {"_"}:
+            lines = [f"_, {call}"]
+        else:
+            lines = [f"values, {call}", f"{', '.join(values)} = values"]
+    if kernel.limit and kernel.limit.quantity in step.results:
+        lines += [f"{kernel.limit.quantity} = _within_limit({kernel.limit.quantity})"]
+    return [INDENT + line for line in lines]
 
 
 def _body(kernel: Kernel, steps: dict[str, Step], printer: Printer) -> str:
     """The private function that works on one block."""
-    text = TEXTS[kernel.name]
     arrays = tuple(dict.fromkeys(o.array for o in kernel.outputs))
-    lines = wrapped(
-        f"def _{kernel.name}(",
-        [f"{_rows(kernel)}: Rows", "c: Constants", *(f"{a}: Array" for a in arrays)],
-        ") -> None:",
-        ", ",
-        "",
-    )
-    lines += [f'    """{text.equation}"""']
-    lines += _body_lines(kernel, steps, printer)
-    lines += [line for o in kernel.outputs for line in _store(o.array, o.index, o.expr, printer)]
-    if any(len(o.index) == 2 for o in kernel.outputs):
-        lines += [
-            f"{INDENT}for row in range(1, 6):",
-            f"{INDENT * 2}{arrays[0]}[row, :row] = {arrays[0]}[:row, row]",
-        ]
-    return "\n".join(lines)
-
-
-def _body_lines(kernel: Kernel, steps: dict[str, Step], printer: Printer) -> list[str]:
-    gauged = kernel.gauge is not None and kernel.gauge.inputs == kernel.inputs
-    lines = [] if gauged else [f"{INDENT}{', '.join(kernel.inputs)} = {_rows(kernel)}"]
-    later = [s.name for expr in kernel.expressions() for s in expr.free_symbols]
-    needed = set(later) | ({kernel.limit.quantity} if kernel.limit else set())
+    given = ", ".join(f"{a}: Array" for a in arrays)
+    lines = [f"def _{kernel.name}({_rows(kernel.inputs)}: Rows, c: Constants, {given}) -> None:"]
+    lines += [f'{INDENT}"""{TEXTS[kernel.name].equation}"""']
+    vector = kernel.dyad.vector if kernel.dyad else ()
+    spelled = {name: f"{name[0]}[{i}]" for i, name in enumerate(vector)}
     called: set[str] = set()
-    local = [a for a in kernel.body if not a.step]
-    if any(s.name == "tiny" for a in local for s in a.expr.free_symbols):
-        square = kernel.limit.quantity if kernel.limit else "y"
-        tiny = [f"{INDENT}tiny = TINY[{square}.dtype]"]
-    else:
-        tiny = []
+    like = kernel.limit.quantity if kernel.limit else "y"  # an array with the block's shape
+    tiny_at = next((a.name for a in kernel.body if not a.step and _uses(a.expr, "tiny")), "")
     for a in kernel.body:
+        if a.name == tiny_at:
+            lines += [f"{INDENT}tiny = TINY[{like}.dtype]"]
         if a.step and a.step not in called:
             called.add(a.step)
-            used = {s.name for b in kernel.body if b.step != a.step for s in b.expr.free_symbols}
-            used |= {s.name for o in kernel.outputs for s in o.expr.free_symbols}
-            used |= {kernel.limit.quantity} if kernel.limit else set()
-            lines += _call(steps[a.step], kernel, used & needed)
+            lines += _call(steps[a.step], kernel)
+        elif a.name == "stretch":
+            lines += [*_rest(kernel, printer)]
+        elif a.name in spelled:
+            if a.name == vector[0]:
+                letter = a.name[0]
+                lines += [f"{INDENT}{letter} = np.empty((6, {like}.size), {like}.dtype)"]
+            lines += _store(spelled[a.name], a.expr, printer)
         elif not a.step:
-            if tiny and any(s.name == "tiny" for s in a.expr.free_symbols):
-                lines += tiny
-                tiny = []
             lines += _assign(a, printer)
-    return lines
+    return "\n".join([*lines, *_outputs(kernel, printer)])
 
 
-def _store(array: str, index: tuple[int, ...], expr: sp.Expr, printer: Printer) -> list[str]:
-    """One output, computed straight into its array by the outermost operation."""
-    place = f"{array}[{', '.join(map(str, index))}]" if index else array
+def _uses(expr: sp.Expr, name: str) -> bool:
+    return any(s.name == name for s in expr.free_symbols)
+
+
+def _rest(kernel: Kernel, printer: Printer) -> list[str]:
+    """``rest``, the strains from rest, in place of the assignment to ``stretch``."""
+    (stretch,) = (a for a in kernel.body if a.name == "stretch")
+    last = {s: sp.Symbol("strains[5]") for s in stretch.expr.free_symbols}
+    shifted = printer.text(stretch.expr.xreplace(last))
+    return [f"{INDENT}rest = [*strains[:5], {shifted}]"]
+
+
+def _outputs(kernel: Kernel, printer: Printer) -> list[str]:
+    """The outputs; a dyad row by row first, then what other terms the entries have."""
+    dyad = kernel.dyad
+    if not dyad:
+        return [line for o in kernel.outputs for line in _store(_place(o), o.expr, printer)]
+    letter, place = dyad.vector[0][0], dyad.array
+    lines = [
+        f"{INDENT}for i in range(6):",
+        f"{INDENT * 2}np.multiply({dyad.weight} * {letter}[i], {letter}[i:], out={place}[i, i:])",
+    ]
+    for o in kernel.outputs:
+        extra = o.expr - dyad.term(o.index[0], o.index[1])
+        if not extra:
+            continue
+        if o.expr.is_Add and not extra.is_Add:
+            lines += [f"{INDENT}{_place(o)} += {printer.text(extra)}"]
+        else:
+            lines += _store(_place(o), o.expr, printer)
+    return [
+        *lines,
+        f"{INDENT}for i in range(1, 6):",
+        f"{INDENT * 2}{place}[i, :i] = {place}[:i, i]",
+    ]
+
+
+def _place(o: Output) -> str:
+    return f"{o.array}[{', '.join(map(str, o.index))}]" if o.index else o.array
+
+
+def _store(place: str, expr: sp.Expr, printer: Printer) -> list[str]:
+    """One value, computed straight into its place by the outermost operation."""
     if expr.is_Add:
-        *most, last = sorted(expr.as_ordered_terms(), key=lambda t: bool(t.is_Number))
-        function, args = "np.add", [printer.text(sp.Add(*most)), printer.text(last)]
-        if last.is_Number:
-            args = [args[0], f"{last}"]
-    elif expr.is_Mul:
+        *most, last = sorted(expr.as_ordered_terms(), key=lambda term: bool(term.is_Number))
+        call = f"np.add({printer.text(sp.Add(*most))}, {printer.text(last)}, out={place})"
+    else:
         above, below = printer.factors(expr)
         if below or len(above) < 2:
-            raise KernelError(f"output {place}: {expr} is not a product or a sum")
-        *front, back = sorted(above, key=lambda f: bool(f.is_Add))
-        function = "np.multiply"
-        args = [" * ".join(printer.text(f, 1) for f in front), printer.text(back)]
-    else:
-        raise KernelError(f"output {place}: {expr} is not a product or a sum")
-    return wrapped(f"{function}(", [*args, f"out={place}"], ")", ", ", INDENT)
+            raise KernelError(f"output {place}: {expr} is neither a product nor a sum")
+        *front, back = sorted(above, key=lambda factor: bool(factor.is_Add))
+        left = " * ".join(printer.text(factor, PRODUCT) for factor in front)
+        call = f"np.multiply({left}, {printer.text(back)}, out={place})"
+        if len(INDENT + call) > 100:
+            whole = f"{place} = {left} * ({printer.text(back)})"
+            if len(INDENT + whole) <= 100:
+                return [INDENT + whole]
+            return wrapped(f"{place} = {left} * (", printer.terms(back), ")", " ", INDENT)
+    if len(INDENT + call) <= 100:
+        return [INDENT + call]
+    return _broken(f"{place}[...] = (", expr, printer)
 
 
 def _past_limit(kernel: Kernel, steps: dict[str, Step], printer: Printer) -> str:
     assert kernel.limit is not None
     step = next(s for s in steps.values() if kernel.limit.quantity in s.results)
-    lines = [f"{INDENT}{', '.join(kernel.inputs)} = strains"]
-    lines += [line for a in kernel.body if a.name in step.inputs for line in _assign(a, printer)]
-    lines += [f"{INDENT}*_, {kernel.limit.quantity} = _{step.name}({', '.join(step.inputs)}, c)"]
+    lines = _rest(kernel, printer)
+    lines += [f"{INDENT}*_, {kernel.limit.quantity} = _{step.name}(rest, c)"]
     return template.PAST_LIMIT.substitute(reduce="\n".join(lines), sentence=kernel.limit.sentence)
 
 
 def _public(kernel: Kernel) -> str:
     """The public function."""
-    text: FunctionText = TEXTS[kernel.name]
+    text = TEXTS[kernel.name]
     first, second = text.inputs
-    many = len(text.outputs) > 1
-    one = "Array" if not many else "tuple[Array, Array]"
-    arguments = [f"{first}: ArrayLike", f"{second}: ArrayLike", "constants: Constants"]
+    pair = len(text.outputs) == 2
+    kind = "Pair" if pair else "Array"
+    names = ", ".join(text.outputs)
+    arguments = f"{first}: ArrayLike, {second}: ArrayLike, constants: Constants"
     lines = wrapped(
-        f"def {kernel.name}(", [*arguments, f"out: {one} | None = None"], f") -> {one}:", ", ", ""
+        f"def {kernel.name}(", [arguments, f"out: {kind} | None = None"], f") -> {kind}:", ", ", ""
     )
     lines += [f'    """{text.doc}', '    """'] if "\n" in text.doc else [f'    """{text.doc}"""']
+    inputs = f'{{"{first}": {first}, "{second}": {second}}}'
     heads = "{" + ", ".join(f'"{name}": {head}' for name, head in text.outputs.items()) + "}"
-    lines += [f'    inputs = {{"{first}": {first}, "{second}": {second}}}']
-    given = "out" if many else "None if out is None else (out,)"
-    names = ", ".join(text.outputs) + ("" if many else ",")
-    call = f"_apply(_{kernel.name}, inputs, constants, {heads}, {given})"
-    left = names if many else f"({names})"
-    lines += wrapped(f"{left} = _apply(", [f"_{kernel.name}", "inputs", "constants", heads, given], ")", ", ", INDENT)
-    del call
-    lines += [f"    return {names.rstrip(',')}"]
-    return "\n".join(lines)
+    lines += wrapped(
+        f"{names if pair else f'({names},)'} = _apply(",
+        [f"_{kernel.name}", inputs, "constants", heads, "out"],
+        ")",
+        ", ",
+        INDENT,
+    )
+    return "\n".join([*lines, f"    return {names}"])

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from string import Template
 
-IMPORTS = '''\
+IMPORTS = """\
 from __future__ import annotations
 
 import math
@@ -21,12 +21,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
+Pair = tuple[Array, Array]
 Rows = Sequence[Array]
+Inputs = dict[str, ArrayLike]
+Heads = dict[str, tuple[int, ...]]  # the leading shape of each result
 
 BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
-'''
+"""
 
 CONSTANTS = Template('''\
 @dataclass(frozen=True)
@@ -126,26 +129,24 @@ def _work_share(depth: Array, c: Constants) -> Array:
 
 BALANCED = '''\
 def _balanced(
-    form: Callable[..., tuple[Array, ...]], inputs: Rows, c: Constants
-) -> tuple[tuple[Array, ...], Array, Array, Array]:
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+) -> tuple[Rows, Array, Array, Array]:
     """Values of ``form``, the root of its last one, and the radius and its square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, a factor
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore"):
-        *values, square = form(*inputs, c)
-    tiny = TINY[square.dtype]
-    if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
+        *values, square = form(inputs, c)
+        tiny = TINY[square.dtype]
+        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
+            size = np.sqrt(square)
+            return values, size, size, square
+        power = np.frexp(np.maximum.reduce([np.abs(row) for row in (*inputs, *values)]))[1]
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
         size = np.sqrt(square)
-        return (*values,), size, size, square
-    largest = np.maximum.reduce([np.abs(row) for row in (*inputs, *values)])
-    power = np.frexp(largest)[1]
-    *values, square = form(*(np.ldexp(row, -power) for row in inputs), c)
-    size = np.sqrt(square)
-    radius = np.ldexp(size, power)
-    with np.errstate(over="ignore"):
-        return (*values,), np.maximum(size, tiny), radius, radius * radius
+        radius = np.ldexp(size, power)
+        return values, np.maximum(size, tiny), radius, radius * radius
 '''
 
 RAISE = '''\
@@ -171,75 +172,54 @@ def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueErr
     """The error for strains at or past the limit: how many points, the first and its Q."""
 $reduce
     bad = np.flatnonzero(~(q < 1))
-    index = tuple(int(i) for i in np.unravel_index(bad[0], shape))
-    return ValueError(
-        f"$sentence; {bad.size} of {q.size} points are not, the"
-        f" first at index {index} with Q = {float(q[bad[0]])!r}"
-    )
+    index = tuple(map(int, np.unravel_index(bad[0], shape)))
+    first = f"the first at index {index} with Q = {float(q[bad[0]])!r}"
+    return ValueError(f"$sentence: {bad.size} of {q.size} do not, {first}")
 ''')
 
 APPLY = Template('''\
-def _arguments(
-    names: tuple[str, str], values: tuple[ArrayLike, ArrayLike]
-) -> tuple[list[Array], tuple[int, ...]]:
-    """The inputs as float arrays (3, ...) of one type, and their common trailing shape."""
-    arrays = [np.asarray(value) for value in values]
-    for name, array in zip(names, arrays, strict=True):
-        if array.dtype.kind not in "iuf":
-            raise ValueError(f"{name} must hold real numbers, not {array.dtype}")
-        if array.shape[:1] != (3,):
-            raise ValueError(f"{name} must have shape (3, ...), not {array.shape}")
-    dtype = np.result_type(*arrays)
-    dtype = np.dtype(dtype if dtype == np.float32 else np.float64)
-    first, second = (array.shape[1:] for array in arrays)
+def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
+    """The inputs as float arrays of one type and shape (3, ...), and the trailing shape."""
+    arrays = [np.asarray(value) for value in inputs.values()]
+    for name, array in zip(inputs, arrays, strict=True):
+        if array.dtype.kind not in "iuf" or array.shape[:1] != (3,):
+            kind = f"{array.dtype} of shape {array.shape}"
+            raise ValueError(f"{name} must hold real numbers in the shape (3, ...), not {kind}")
+    dtype = np.float32 if np.result_type(*arrays) == np.float32 else np.float64
     try:
-        shape = np.broadcast_shapes(first, second)
+        shape = np.broadcast_shapes(*(array.shape[1:] for array in arrays))
     except ValueError:
-        raise ValueError(
-            f"{names[0]} and {names[1]} must broadcast after the first axis, but have the"
-            f" shapes {arrays[0].shape} and {arrays[1].shape}"
-        ) from None
-    whole = [array.reshape(3, *(1,) * (len(shape) + 1 - array.ndim), *array.shape[1:]) for array in arrays]
-    return [np.broadcast_to(a, (3, *shape)).astype(dtype, copy=False) for a in whole], shape
+        shapes = " and ".join(f"{n} {a.shape}" for n, a in zip(inputs, arrays, strict=True))
+        raise ValueError(f"{shapes} do not broadcast after their first axis") from None
+    aligned = (a.reshape(3, *(1,) * (len(shape) + 1 - a.ndim), *a.shape[1:]) for a in arrays)
+    return [np.broadcast_to(a, (3, *shape)).astype(dtype, copy=False) for a in aligned], shape
 
 
-def _results(
-    heads: dict[str, tuple[int, ...]],
-    shape: tuple[int, ...],
-    dtype: np.dtype[Any],
-    out: tuple[Array, ...] | None,
-) -> tuple[Array, ...]:
+def _results(heads: Heads, shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
     """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
+    shapes = [(*head, *shape) for head in heads.values()]
     if out is None:
-        return tuple(np.empty((*head, *shape), dtype) for head in heads.values())
-    if not isinstance(out, tuple) or len(out) != len(heads):
-        raise ValueError(f"out must be a tuple of {len(heads)} arrays, for {', '.join(heads)}")
-    for (name, head), array in zip(heads.items(), out, strict=True):
-        if not isinstance(array, np.ndarray) or array.dtype != dtype:
-            kind = getattr(array, "dtype", type(array).__name__)
-            raise ValueError(f"out for {name} must be an array of {dtype}, not of {kind}")
-        if array.shape != (*head, *shape):
-            raise ValueError(
-                f"out for {name} must have shape {(*head, *shape)}, not {array.shape}"
-            )
-    return out
+        return [np.empty(wanted, dtype) for wanted in shapes]
+    given = out if isinstance(out, tuple) else (out,)
+    if len(given) != len(heads):
+        raise ValueError(f"out must be {len(heads)} arrays, for {' and '.join(heads)}")
+    for name, array, wanted in zip(heads, given, shapes, strict=True):
+        kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
+        if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
+            raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
+    return list(given)
 
 
 def _apply(
-    body: Callable[..., None],
-    inputs: dict[str, ArrayLike],
-    c: Constants,
-    heads: dict[str, tuple[int, ...]],
-    out: tuple[Array, ...] | None,
-) -> tuple[Array, ...]:
+    body: Callable[..., None], inputs: Inputs, c: Constants, heads: Heads, out: Any
+) -> list[Array]:
     """Runs ``body`` over blocks of points, straight into the results where that is safe."""
-    (first, second), (name, other) = inputs.values(), inputs
-    arrays, shape = _arguments((name, other), (first, second))
+    arrays, shape = _arguments(inputs)
     results = _results(heads, shape, arrays[0].dtype, out)
     points = math.prod(shape)
     rows = [row for array in arrays for row in array.reshape(3, points)]
-    direct = out is None or all(
-        r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in out
+    direct = all(
+        r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
     flat = [
         (r if direct else np.empty(r.shape, r.dtype)).reshape(*head, points)
@@ -255,10 +235,10 @@ $run
     return results
 ''')
 
-RUN_RAISE = '''\
+RUN_RAISE = """\
             try:
                 body([row[part] for row in rows], c, *(array[..., part] for array in flat))
             except _PastLimit:
-                raise _past_limit(rows, c, shape) from None'''
-RUN = '''\
-            body([row[part] for row in rows], c, *(array[..., part] for array in flat))'''
+                raise _past_limit(rows, c, shape) from None"""
+RUN = """\
+            body([row[part] for row in rows], c, *(array[..., part] for array in flat))"""

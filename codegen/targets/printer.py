@@ -129,11 +129,11 @@ def wrapped(opening: str, pieces: list[str], closing: str, joint: str, indent: s
     if len(line) <= 100:
         return [line]
     inner = indent + "    "
+    if len(inner + joint.join(pieces)) <= 100:
+        return [indent + opening, inner + joint.join(pieces), indent + closing]
     comma = joint.rstrip() if joint.strip() else ""
     return [
         indent + opening,
         *(f"{inner}{piece}{comma}" for piece in pieces),
         indent + closing,
     ]
-
-

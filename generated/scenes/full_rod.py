@@ -1,45 +1,25 @@
 """The strain-limiting special Cosserat rod: every strain, every load, any p.
 
-Scene full_rod, written by: rodproof generate full_rod
+Scene full_rod, made by: rodproof generate full_rod
 
-Statements it rests on (paper label):
-    qstar-form (Section 3.1)
-    const-u-mu (eq:uconst)
-    const-u-3 (eq:u3const)
-    const-v-mu (eq:vconst)
-    const-v-3 (eq:v3const)
-    q-form (eq:quadraticform)
-    strain-limit (eq:strainlimiting)
-    const-m-mu (eq:mconst)
-    const-m-3 (eq:m3const)
-    const-n-mu (eq:nconst)
-    const-n-3 (eq:n3const)
-    w-definition (eq:stenergy)
-    wstar-definition (eq:compenergy)
-    hess-m-u
-    hess-m-u3
-    hess-m-v
-    hess-m-v3
-    hess-m3-u3
-    hess-m3-v
-    hess-m3-v3
-    hess-n-v
-    hess-n-v3
-    hess-n3-v3
-    wstar-gradient (Section 3.1)
+Statements it rests on (paper label, verdict): qstar-form Section 3.1 refuted; const-u-mu
+eq:uconst proved; const-u-3 eq:u3const proved; const-v-mu eq:vconst proved; const-v-3 eq:v3const
+proved; q-form eq:quadraticform definition; strain-limit eq:strainlimiting proved; const-m-mu
+eq:mconst proved; const-m-3 eq:m3const proved; const-n-mu eq:nconst proved; const-n-3 eq:n3const
+proved; w-definition eq:stenergy proved; wstar-definition eq:compenergy proved; hess-m-u;
+hess-m-u3; hess-m-v; hess-m-v3; hess-m3-u3; hess-m3-v; hess-m3-v3; hess-n-v; hess-n-v3;
+hess-n3-v3; wstar-gradient Section 3.1 proved.
 
-Domain: all finite loads; strains with Q(u, v) < 1, past which the answer is
-an error.
+Domain: all finite loads; strains with Q(u, v) < 1, and an error at and past that limit.
 
-Operations a point (arithmetic, transcendental, energy share, temporaries):
-    strains                 50   4   0  17
-    loads                   42   4   0  17
-    stored_energy           33   4   1  13
-    complementary_energy    42   6   1  13
-    stiffness              100   4   0  27
-    compliance             158   4   0  43
+Operations a point: arithmetic, transcendental, energy shares, temporaries
+    strains                50    4    0   17
+    loads                  42    4    0   17
+    stored_energy          33    4    1   13
+    complementary_energy   42    6    1   13
+    stiffness             108    4    0   26
+    compliance            161    4    0   39
 """
-
 
 from __future__ import annotations
 
@@ -54,7 +34,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
+Pair = tuple[Array, Array]
 Rows = Sequence[Array]
+Inputs = dict[str, ArrayLike]
+Heads = dict[str, tuple[int, ...]]  # the leading shape of each result
 
 BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
@@ -139,16 +122,9 @@ class Constants:
         return fraction, powers, start, slope, single
 
 
-def _reduce_loads(
-    m1: Array,
-    m2: Array,
-    m3: Array,
-    n1: Array,
-    n2: Array,
-    n3: Array,
-    c: Constants,
-) -> tuple[Array, ...]:
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
     """Loads over their moduli, the linear rod's strains, and Q*(m, n) in squares."""
+    m1, m2, m3, n1, n2, n3 = loads
     mu_1 = c.per_alpha * m1
     mu_2 = c.per_alpha * m2
     mu_3 = c.per_beta * m3
@@ -158,29 +134,22 @@ def _reduce_loads(
     twist = mu_3 - c.chirality * dilatation
     nu_3 = c.per_eta * n3
     q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2 + nu_1**2 + nu_2**2
-    return (mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3, q_star)
+    return mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3, q_star
 
 
-def _soften(y: Array, c: Constants) -> tuple[Array, ...]:
+def _soften(y: Array, c: Constants) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
     larger = np.maximum(y, c.gamma)
     ratio = np.maximum(tiny, np.minimum(y, c.gamma) / larger)
     power = np.exp(c.p * np.log(ratio))
     factor = np.exp(-np.log1p(power) / c.p) / larger
-    return (ratio, power, factor)
+    return ratio, power, factor
 
 
-def _reduce_strains(
-    u1: Array,
-    u2: Array,
-    u3: Array,
-    v1: Array,
-    v2: Array,
-    stretch: Array,
-    c: Constants,
-) -> tuple[Array, ...]:
+def _reduce_strains(rest: Rows, c: Constants) -> Rows:
     """Strains times their moduli, the linear rod's loads, and Q(u, v) in squares."""
+    u1, u2, u3, v1, v2, stretch = rest
     kappa_1 = c.alpha * u1
     kappa_2 = c.alpha * u2
     kappa_3 = c.beta * u3
@@ -190,40 +159,38 @@ def _reduce_strains(
     torque = c.chirality * lam_3 + kappa_3
     tension = c.chirality * torque + c.gap * lam_3
     q = c.gap * lam_3**2 + kappa_1**2 + kappa_2**2 + lam_1**2 + lam_2**2 + torque**2
-    return (kappa_1, kappa_2, lam_1, lam_2, torque, tension, q)
+    return kappa_1, kappa_2, lam_1, lam_2, torque, tension, q
 
 
-def _stiffen(q: Array, c: Constants) -> tuple[Array, ...]:
+def _stiffen(q: Array, c: Constants) -> Rows:
     """Load over strain, gamma (1 - x^p)^(-1/p), by the growth x^p/(1 - x^p), x^2 = Q."""
-    tiny = TINY[q.dtype]
     log_max = LOG_MAX[q.dtype]
+    tiny = TINY[q.dtype]
     growth = 1 / np.expm1(np.minimum(log_max, -0.5 * c.p * np.log(np.maximum(q, tiny))))
     depth = np.log1p(growth)
     factor = c.gamma * np.exp(depth / c.p)
-    return (growth, depth, factor)
+    return growth, depth, factor
 
 
 def _balanced(
-    form: Callable[..., tuple[Array, ...]], inputs: Rows, c: Constants
-) -> tuple[tuple[Array, ...], Array, Array, Array]:
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+) -> tuple[Rows, Array, Array, Array]:
     """Values of ``form``, the root of its last one, and the radius and its square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, a factor
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore"):
-        *values, square = form(*inputs, c)
-    tiny = TINY[square.dtype]
-    if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
+        *values, square = form(inputs, c)
+        tiny = TINY[square.dtype]
+        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
+            size = np.sqrt(square)
+            return values, size, size, square
+        power = np.frexp(np.maximum.reduce([np.abs(row) for row in (*inputs, *values)]))[1]
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
         size = np.sqrt(square)
-        return (*values,), size, size, square
-    largest = np.maximum.reduce([np.abs(row) for row in (*inputs, *values)])
-    power = np.frexp(largest)[1]
-    *values, square = form(*(np.ldexp(row, -power) for row in inputs), c)
-    size = np.sqrt(square)
-    radius = np.ldexp(size, power)
-    with np.errstate(over="ignore"):
-        return (*values,), np.maximum(size, tiny), radius, radius * radius
+        radius = np.ldexp(size, power)
+        return values, np.maximum(size, tiny), radius, radius * radius
 
 
 def _work_share(depth: Array, c: Constants) -> Array:
@@ -269,78 +236,56 @@ def _within_limit(q: Array) -> Array:
 
 def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueError:
     """The error for strains at or past the limit: how many points, the first and its Q."""
-    u1, u2, u3, v1, v2, v3 = strains
-    stretch = v3 - 1
-    *_, q = _reduce_strains(u1, u2, u3, v1, v2, stretch, c)
+    rest = [*strains[:5], strains[5] - 1]
+    *_, q = _reduce_strains(rest, c)
     bad = np.flatnonzero(~(q < 1))
-    index = tuple(int(i) for i in np.unravel_index(bad[0], shape))
-    return ValueError(
-        f"the strains must satisfy Q(u, v) < 1 (eq:strainlimiting); {bad.size} of {q.size} points are not, the"
-        f" first at index {index} with Q = {float(q[bad[0]])!r}"
-    )
+    index = tuple(map(int, np.unravel_index(bad[0], shape)))
+    first = f"the first at index {index} with Q = {float(q[bad[0]])!r}"
+    return ValueError(f"strains must satisfy Q(u, v) < 1: {bad.size} of {q.size} do not, {first}")
 
 
-def _arguments(
-    names: tuple[str, str], values: tuple[ArrayLike, ArrayLike]
-) -> tuple[list[Array], tuple[int, ...]]:
-    """The inputs as float arrays (3, ...) of one type, and their common trailing shape."""
-    arrays = [np.asarray(value) for value in values]
-    for name, array in zip(names, arrays, strict=True):
-        if array.dtype.kind not in "iuf":
-            raise ValueError(f"{name} must hold real numbers, not {array.dtype}")
-        if array.shape[:1] != (3,):
-            raise ValueError(f"{name} must have shape (3, ...), not {array.shape}")
-    dtype = np.result_type(*arrays)
-    dtype = np.dtype(dtype if dtype == np.float32 else np.float64)
-    first, second = (array.shape[1:] for array in arrays)
+def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
+    """The inputs as float arrays of one type and shape (3, ...), and the trailing shape."""
+    arrays = [np.asarray(value) for value in inputs.values()]
+    for name, array in zip(inputs, arrays, strict=True):
+        if array.dtype.kind not in "iuf" or array.shape[:1] != (3,):
+            kind = f"{array.dtype} of shape {array.shape}"
+            raise ValueError(f"{name} must hold real numbers in the shape (3, ...), not {kind}")
+    dtype = np.float32 if np.result_type(*arrays) == np.float32 else np.float64
     try:
-        shape = np.broadcast_shapes(first, second)
+        shape = np.broadcast_shapes(*(array.shape[1:] for array in arrays))
     except ValueError:
-        raise ValueError(
-            f"{names[0]} and {names[1]} must broadcast after the first axis, but have the"
-            f" shapes {arrays[0].shape} and {arrays[1].shape}"
-        ) from None
-    whole = [array.reshape(3, *(1,) * (len(shape) + 1 - array.ndim), *array.shape[1:]) for array in arrays]
-    return [np.broadcast_to(a, (3, *shape)).astype(dtype, copy=False) for a in whole], shape
+        shapes = " and ".join(f"{n} {a.shape}" for n, a in zip(inputs, arrays, strict=True))
+        raise ValueError(f"{shapes} do not broadcast after their first axis") from None
+    aligned = (a.reshape(3, *(1,) * (len(shape) + 1 - a.ndim), *a.shape[1:]) for a in arrays)
+    return [np.broadcast_to(a, (3, *shape)).astype(dtype, copy=False) for a in aligned], shape
 
 
-def _results(
-    heads: dict[str, tuple[int, ...]],
-    shape: tuple[int, ...],
-    dtype: np.dtype[Any],
-    out: tuple[Array, ...] | None,
-) -> tuple[Array, ...]:
+def _results(heads: Heads, shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
     """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
+    shapes = [(*head, *shape) for head in heads.values()]
     if out is None:
-        return tuple(np.empty((*head, *shape), dtype) for head in heads.values())
-    if not isinstance(out, tuple) or len(out) != len(heads):
-        raise ValueError(f"out must be a tuple of {len(heads)} arrays, for {', '.join(heads)}")
-    for (name, head), array in zip(heads.items(), out, strict=True):
-        if not isinstance(array, np.ndarray) or array.dtype != dtype:
-            kind = getattr(array, "dtype", type(array).__name__)
-            raise ValueError(f"out for {name} must be an array of {dtype}, not of {kind}")
-        if array.shape != (*head, *shape):
-            raise ValueError(
-                f"out for {name} must have shape {(*head, *shape)}, not {array.shape}"
-            )
-    return out
+        return [np.empty(wanted, dtype) for wanted in shapes]
+    given = out if isinstance(out, tuple) else (out,)
+    if len(given) != len(heads):
+        raise ValueError(f"out must be {len(heads)} arrays, for {' and '.join(heads)}")
+    for name, array, wanted in zip(heads, given, shapes, strict=True):
+        kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
+        if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
+            raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
+    return list(given)
 
 
 def _apply(
-    body: Callable[..., None],
-    inputs: dict[str, ArrayLike],
-    c: Constants,
-    heads: dict[str, tuple[int, ...]],
-    out: tuple[Array, ...] | None,
-) -> tuple[Array, ...]:
+    body: Callable[..., None], inputs: Inputs, c: Constants, heads: Heads, out: Any
+) -> list[Array]:
     """Runs ``body`` over blocks of points, straight into the results where that is safe."""
-    (first, second), (name, other) = inputs.values(), inputs
-    arrays, shape = _arguments((name, other), (first, second))
+    arrays, shape = _arguments(inputs)
     results = _results(heads, shape, arrays[0].dtype, out)
     points = math.prod(shape)
     rows = [row for array in arrays for row in array.reshape(3, points)]
-    direct = out is None or all(
-        r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in out
+    direct = all(
+        r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
     flat = [
         (r if direct else np.empty(r.shape, r.dtype)).reshape(*head, points)
@@ -361,8 +306,9 @@ def _apply(
 
 def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
     """u = (gamma^p + Q*^(p/2))^(-1/p) (K^-1 (m, n))_u, v - e3 likewise (eq:uconst, eq:vconst)."""
-    (mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _), size, y, _ = _balanced(_reduce_loads, loads, c)
-    _, _, factor = _soften(y, c)
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
+    *_, factor = _soften(y, c)
     reach = factor * y / size
     bend = c.per_alpha * reach
     turn = c.per_beta * reach
@@ -376,29 +322,22 @@ def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
     np.add(dilatation * extend, 1, out=v[2])
 
 
-def strains(
-    m: ArrayLike,
-    n: ArrayLike,
-    constants: Constants,
-    out: tuple[Array, Array] | None = None,
-) -> tuple[Array, Array]:
+def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
     """Strains u, v (3, ...) under the contact couple m and force n (eq:uconst to eq:v3const).
 
     m (3, ...) in force times length and n (3, ...) in force, any finite values.
     u comes in 1/length, v is plain; at rest u = 0, v = (0, 0, 1).
     """
-    inputs = {"m": m, "n": n}
-    u, v = _apply(_strains, inputs, constants, {"u": (3,), "v": (3,)}, out)
+    u, v = _apply(_strains, {"m": m, "n": n}, constants, {"u": (3,), "v": (3,)}, out)
     return u, v
 
 
 def _loads(strains: Rows, c: Constants, m: Array, n: Array) -> None:
     """m = gamma (1 - Q^(p/2))^(-1/p) (K (u, v - e3))_m, n likewise (eq:mconst, eq:nconst)."""
-    u1, u2, u3, v1, v2, v3 = strains
-    stretch = v3 - 1
-    kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(u1, u2, u3, v1, v2, stretch, c)
+    rest = [*strains[:5], strains[5] - 1]
+    kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
     q = _within_limit(q)
-    _, _, factor = _stiffen(q, c)
+    *_, factor = _stiffen(q, c)
     bend = c.alpha * factor
     turn = c.beta * factor
     shear = c.zeta * factor
@@ -411,28 +350,20 @@ def _loads(strains: Rows, c: Constants, m: Array, n: Array) -> None:
     np.multiply(extend, tension, out=n[2])
 
 
-def loads(
-    u: ArrayLike,
-    v: ArrayLike,
-    constants: Constants,
-    out: tuple[Array, Array] | None = None,
-) -> tuple[Array, Array]:
+def loads(u: ArrayLike, v: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
     """Contact couple m and force n (3, ...) at the strains u, v (eq:mconst to eq:n3const).
 
-    u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1; else
-    ValueError, and what ``out`` holds is unspecified.
+    u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1 (eq:strainlimiting).
     Near the limit the strains hardly determine the loads.
     """
-    inputs = {"u": u, "v": v}
-    m, n = _apply(_loads, inputs, constants, {"m": (3,), "n": (3,)}, out)
+    m, n = _apply(_loads, {"u": u, "v": v}, constants, {"m": (3,), "n": (3,)}, out)
     return m, n
 
 
 def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of load times strain."""
-    u1, u2, u3, v1, v2, v3 = strains
-    stretch = v3 - 1
-    _, _, x, q = _balanced(_reduce_strains, (u1, u2, u3, v1, v2, stretch), c)
+    rest = [*strains[:5], strains[5] - 1]
+    _, _, x, q = _balanced(_reduce_strains, rest, c)
     q = _within_limit(q)
     _, depth, factor = _stiffen(q, c)
     load = factor * x
@@ -440,18 +371,13 @@ def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
 
 
 def stored_energy(
-    u: ArrayLike,
-    v: ArrayLike,
-    constants: Constants,
-    out: Array | None = None,
+    u: ArrayLike, v: ArrayLike, constants: Constants, out: Array | None = None
 ) -> Array:
     """Stored energy W per length, in force (eq:stenergy), with the trailing shape.
 
-    u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1; else
-    ValueError, and what ``out`` holds is unspecified.
+    u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1 (eq:strainlimiting).
     """
-    inputs = {"u": u, "v": v}
-    (w,) = _apply(_stored_energy, inputs, constants, {"w": ()}, None if out is None else (out,))
+    (w,) = _apply(_stored_energy, {"u": u, "v": v}, constants, {"w": ()}, out)
     return w
 
 
@@ -465,176 +391,114 @@ def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
 
 
 def complementary_energy(
-    m: ArrayLike,
-    n: ArrayLike,
-    constants: Constants,
-    out: Array | None = None,
+    m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None
 ) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
     m (3, ...) in force times length and n (3, ...) in force, any finite values.
     """
-    inputs = {"m": m, "n": n}
-    (w_star,) = _apply(
-        _complementary_energy,
-        inputs,
-        constants,
-        {"w_star": ()},
-        None if out is None else (out,),
-    )
+    (w_star,) = _apply(_complementary_energy, {"m": m, "n": n}, constants, {"w_star": ()}, out)
     return w_star
 
 
 def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u, v - e3)/x."""
-    u1, u2, u3, v1, v2, v3 = strains
-    stretch = v3 - 1
-    kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(u1, u2, u3, v1, v2, stretch, c)
+    rest = [*strains[:5], strains[5] - 1]
+    kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
     q = _within_limit(q)
     growth, _, factor = _stiffen(q, c)
     steep = factor * growth
     tiny = TINY[q.dtype]
     x = np.sqrt(np.maximum(q, tiny))
-    t1 = c.alpha * kappa_1 / x
-    w1 = steep * t1
-    t2 = c.alpha * kappa_2 / x
-    w2 = steep * t2
-    t3 = c.beta * torque / x
-    w3 = steep * t3
-    t4 = c.zeta * lam_1 / x
-    w4 = steep * t4
-    t5 = c.zeta * lam_2 / x
-    w5 = steep * t5
-    t6 = c.eta * tension / x
-    w6 = steep * t6
-    np.add(c.alpha**2 * factor, t1 * w1, out=stiff[0, 0])
-    np.multiply(t2, w1, out=stiff[0, 1])
-    np.multiply(t3, w1, out=stiff[0, 2])
-    np.multiply(t4, w1, out=stiff[0, 3])
-    np.multiply(t5, w1, out=stiff[0, 4])
-    np.multiply(t6, w1, out=stiff[0, 5])
-    np.add(c.alpha**2 * factor, t2 * w2, out=stiff[1, 1])
-    np.multiply(t3, w2, out=stiff[1, 2])
-    np.multiply(t4, w2, out=stiff[1, 3])
-    np.multiply(t5, w2, out=stiff[1, 4])
-    np.multiply(t6, w2, out=stiff[1, 5])
-    np.add(c.beta**2 * factor, t3 * w3, out=stiff[2, 2])
-    np.multiply(t4, w3, out=stiff[2, 3])
-    np.multiply(t5, w3, out=stiff[2, 4])
-    np.add(c.iota * factor, t6 * w3, out=stiff[2, 5])
-    np.add(c.zeta**2 * factor, t4 * w4, out=stiff[3, 3])
-    np.multiply(t5, w4, out=stiff[3, 4])
-    np.multiply(t6, w4, out=stiff[3, 5])
-    np.add(c.zeta**2 * factor, t5 * w5, out=stiff[4, 4])
-    np.multiply(t6, w5, out=stiff[4, 5])
-    np.add(c.eta**2 * factor, t6 * w6, out=stiff[5, 5])
-    for row in range(1, 6):
-        stiff[row, :row] = stiff[:row, row]
+    per_x = 1 / x
+    bend = c.alpha * per_x
+    turn = c.beta * per_x
+    shear = c.zeta * per_x
+    extend = c.eta * per_x
+    t = np.empty((6, q.size), q.dtype)
+    np.multiply(bend, kappa_1, out=t[0])
+    np.multiply(bend, kappa_2, out=t[1])
+    np.multiply(torque, turn, out=t[2])
+    np.multiply(lam_1, shear, out=t[3])
+    np.multiply(lam_2, shear, out=t[4])
+    np.multiply(extend, tension, out=t[5])
+    for i in range(6):
+        np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.alpha**2 * factor
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 5] += c.iota * factor
+    stiff[3, 3] += c.zeta**2 * factor
+    stiff[4, 4] += c.zeta**2 * factor
+    stiff[5, 5] += c.eta**2 * factor
+    for i in range(1, 6):
+        stiff[i, :i] = stiff[:i, i]
 
 
 def stiffness(u: ArrayLike, v: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
     """Stiffness d(m, n)/d(u, v), (6, 6, ...), symmetric positive definite (Section 3.4).
 
-    u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1; else
-    ValueError, and what ``out`` holds is unspecified.
+    u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1 (eq:strainlimiting).
     Rows and columns are ordered (m1, m2, m3, n1, n2, n3) and (u1, u2, u3, v1, v2, v3).
     """
-    inputs = {"u": u, "v": v}
-    (stiff,) = _apply(
-        _stiffness,
-        inputs,
-        constants,
-        {"stiff": (6, 6)},
-        None if out is None else (out,),
-    )
+    (stiff,) = _apply(_stiffness, {"u": u, "v": v}, constants, {"stiff": (6, 6)}, out)
     return stiff
 
 
 def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y, its diagonal as sums of squares."""
-    (mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3), size, y, _ = _balanced(_reduce_loads, loads, c)
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3 = values
     _, power, factor = _soften(y, c)
     remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
-    a1 = mu_1 / size
+    per_size = 1 / size
+    tiny = TINY[y.dtype]
+    a1 = per_size * (mu_1 + tiny)
     a1_square = a1**2
-    a2 = mu_2 / size
+    a2 = mu_2 * per_size
     a2_square = a2**2
-    a3 = mu_3 / size
+    a3 = mu_3 * per_size
     a3_square = a3**2
-    b1 = nu_1 / size
+    b1 = nu_1 * per_size
     b1_square = b1**2
-    b2 = nu_2 / size
+    b2 = nu_2 * per_size
     b2_square = b2**2
-    b3 = nu_3 / size
-    c3 = twist / size
-    c6 = dilatation / size
+    b3 = nu_3 * per_size
+    c3 = per_size * twist
+    c6 = dilatation * per_size
     c6_square = c6**2
     across = a1_square + a2_square + b1_square + b2_square
     coupled = a3_square + c.gap * c6_square
     share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
     steep = -factor * share
-    d1 = c.per_alpha * a1
-    w1 = d1 * steep
-    d2 = c.per_alpha * a2
-    w2 = d2 * steep
-    d3 = c.per_beta * c3
-    w3 = d3 * steep
-    d4 = c.per_zeta * b1
-    w4 = d4 * steep
-    d5 = c.per_zeta * b2
-    w5 = d5 * steep
-    d6 = c.per_eta * c6
-    np.multiply(
-        c.per_alpha**2 * factor,
-        a1_square * remain + a2_square + b1_square + b2_square + coupled,
-        out=soft[0, 0],
+    d = np.empty((6, y.size), y.dtype)
+    np.multiply(c.per_alpha, a1, out=d[0])
+    np.multiply(c.per_alpha, a2, out=d[1])
+    np.multiply(c.per_beta, c3, out=d[2])
+    np.multiply(c.per_zeta, b1, out=d[3])
+    np.multiply(c.per_zeta, b2, out=d[4])
+    np.multiply(c.per_eta, c6, out=d[5])
+    for i in range(6):
+        np.multiply(steep * d[i], d[i:], out=soft[i, i:])
+    soft[0, 0] = c.per_alpha**2 * factor * (
+        a1_square * remain + a2_square + b1_square + b2_square + coupled
     )
-    np.multiply(d2, w1, out=soft[0, 1])
-    np.multiply(d3, w1, out=soft[0, 2])
-    np.multiply(d4, w1, out=soft[0, 3])
-    np.multiply(d5, w1, out=soft[0, 4])
-    np.multiply(d6, w1, out=soft[0, 5])
-    np.multiply(
-        c.per_alpha**2 * factor,
-        a1_square + a2_square * remain + b1_square + b2_square + coupled,
-        out=soft[1, 1],
+    soft[1, 1] = c.per_alpha**2 * factor * (
+        a1_square + a2_square * remain + b1_square + b2_square + coupled
     )
-    np.multiply(d3, w2, out=soft[1, 2])
-    np.multiply(d4, w2, out=soft[1, 3])
-    np.multiply(d5, w2, out=soft[1, 4])
-    np.multiply(d6, w2, out=soft[1, 5])
-    np.multiply(
-        c.per_beta**2 * factor,
-        c3**2 * remain + c.per_gap * (across + b3**2),
-        out=soft[2, 2],
+    soft[2, 2] = c.per_beta**2 * factor * (c3**2 * remain + c.per_gap * (across + b3**2))
+    soft[2, 5] = c.per_beta * c.per_eta * factor * (
+        c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across)
     )
-    np.multiply(d4, w3, out=soft[2, 3])
-    np.multiply(d5, w3, out=soft[2, 4])
-    np.multiply(
-        c.per_beta * c.per_eta * factor,
-        c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across),
-        out=soft[2, 5],
+    soft[3, 3] = c.per_zeta**2 * factor * (
+        a1_square + a2_square + b1_square * remain + b2_square + coupled
     )
-    np.multiply(
-        c.per_zeta**2 * factor,
-        a1_square + a2_square + b1_square * remain + b2_square + coupled,
-        out=soft[3, 3],
+    soft[4, 4] = c.per_zeta**2 * factor * (
+        a1_square + a2_square + b1_square + b2_square * remain + coupled
     )
-    np.multiply(d5, w4, out=soft[3, 4])
-    np.multiply(d6, w4, out=soft[3, 5])
-    np.multiply(
-        c.per_zeta**2 * factor,
-        a1_square + a2_square + b1_square + b2_square * remain + coupled,
-        out=soft[4, 4],
-    )
-    np.multiply(d6, w5, out=soft[4, 5])
-    np.multiply(
-        c.per_eta**2 * factor,
-        c6_square * remain + c.per_gap * (a3_square + across),
-        out=soft[5, 5],
-    )
-    for row in range(1, 6):
-        soft[row, :row] = soft[:row, row]
+    soft[5, 5] = c.per_eta**2 * factor * (c6_square * remain + c.per_gap * (a3_square + across))
+    for i in range(1, 6):
+        soft[i, :i] = soft[:i, i]
 
 
 def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
@@ -643,12 +507,5 @@ def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | No
     m (3, ...) in force times length and n (3, ...) in force, any finite values.
     Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
     """
-    inputs = {"m": m, "n": n}
-    (soft,) = _apply(
-        _compliance,
-        inputs,
-        constants,
-        {"soft": (6, 6)},
-        None if out is None else (out,),
-    )
+    (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, {"soft": (6, 6)}, out)
     return soft
