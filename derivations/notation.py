@@ -1,8 +1,9 @@
 """The notation in which the paper's statements are transcribed, symbol by symbol.
 
-Strains and loads are indexed (`u[1]`, `v[3]`, `m[mu]`), Greek indices range over {1, 2} and
-stand for every value, energies and forms are applied functions (`Q(u, v)`), and relations may
-be chained. Nothing here knows what is true; `proof` gives the notation its meaning.
+Strains and loads are indexed (`u[1]`, `v[3]`, `m[mu]`), Greek indices range over {1, 2}, Latin
+ones over {1, 2, 3}, and stand for every value; energies and forms are applied functions
+(`Q(u, v)`), and relations may be chained. Nothing here knows what is true; `proof` gives the
+notation its meaning.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ import sympy as sp
 u, v, m, n = (sp.IndexedBase(name, real=True) for name in "uvmn")
 mu, nu = sp.symbols("mu nu", cls=sp.Idx)
 GREEK = (mu, nu)
+k = sp.symbols("k", cls=sp.Idx)
+#: The values that a free or summed index takes: Greek ones 1 and 2, Latin ones 1, 2 and 3.
+RANGES = {mu: (1, 2), nu: (1, 2), k: (1, 2, 3)}
 t = sp.Symbol("t", positive=True)
 
 
@@ -48,6 +52,37 @@ class Wstar(sp.Function):
         return _applied(printer, "W^*", self.args, exp)
 
 
+class Prime(sp.Function):
+    """The derivative along the rod, `Prime(theta)`; printed as theta'."""
+
+    nargs = 1
+
+    def _latex(self, printer: object, exp: str | None = None) -> str:
+        inner = printer._print(self.args[0])  # type: ignore[attr-defined]
+        plain = isinstance(self.args[0], sp.Symbol | sp.Indexed)
+        marked = f"{inner}'" if plain else rf"\left({inner}\right)'"
+        return marked if exp is None else rf"\left({marked}\right)^{{{exp}}}"
+
+
+class Cross(sp.Function):
+    """The vector product of two vectors, `Cross(e[2], e[3])`."""
+
+    nargs = 2
+
+    def _latex(self, printer: object, exp: str | None = None) -> str:
+        return r" \times ".join(printer._print(a) for a in self.args)  # type: ignore[attr-defined]
+
+
+class Dot(sp.Function):
+    """The inner product of two vectors, `Dot(d[3], g[3])`."""
+
+    nargs = 2
+
+    def _latex(self, printer: object, exp: str | None = None) -> str:
+        inner = r" \cdot ".join(printer._print(a) for a in self.args)  # type: ignore[attr-defined]
+        return inner if exp is None else rf"({inner})^{{{exp}}}"
+
+
 class Partial(sp.Expr):
     """A partial derivative as printed, `Partial(W(u, v), u[1])`; never evaluated on its own."""
 
@@ -57,7 +92,7 @@ class Partial(sp.Expr):
 
 
 class Summed(sp.Expr):
-    """The summation convention over a Greek index, `Summed(a[mu]*u[mu], mu)`."""
+    """The summation convention over an index, `Summed(a[mu]*u[mu], mu)`."""
 
     def _latex(self, printer: object) -> str:
         return str(printer._print(self.args[0]))  # type: ignore[attr-defined]
@@ -122,6 +157,17 @@ class Iff(sp.Basic):
         return r" \iff ".join(printer._print(a) for a in self.args)  # type: ignore[attr-defined]
 
 
+class ForAll(sp.Basic):
+    """For all variables of a domain the claim holds, `ForAll(domain, claim)`.
+
+    The domain is a relation between the variables, or a tuple of variables without one.
+    """
+
+    def _latex(self, printer: object) -> str:
+        domain, claim = (printer._print(a) for a in self.args)  # type: ignore[attr-defined]
+        return rf"{claim} \quad \text{{for all }} {domain}"
+
+
 class PositiveDefinite(sp.Basic):
     """The quadratic form is positive definite in the variables, `PositiveDefinite(Q, (u, v))`."""
 
@@ -154,11 +200,11 @@ def component(indexed: sp.Indexed) -> sp.Basic:
 
 
 def instances(tree: sp.Basic) -> tuple[sp.Basic, ...]:
-    """The statement for every value of its free Greek indices, in component symbols."""
+    """The statement for every value of its free indices, in component symbols."""
     tree = _expand_sums(tree)
-    free = [i for i in GREEK if tree.has(i)]
+    free = [i for i in RANGES if tree.has(i)]
     found = []
-    for values in itertools.product((1, 2), repeat=len(free)):
+    for values in itertools.product(*(RANGES[i] for i in free)):
         concrete = tree.xreplace(dict(zip(free, map(sp.Integer, values), strict=True)))
         found.append(_plain(concrete))
     return tuple(found)
@@ -169,7 +215,10 @@ def _expand_sums(tree: sp.Basic) -> sp.Basic:
     if not sums:
         return tree
     return tree.xreplace(
-        {s: sp.Add(*(s.args[0].xreplace({s.args[1]: sp.Integer(k)}) for k in (1, 2))) for s in sums}
+        {
+            s: sp.Add(*(s.args[0].xreplace({s.args[1]: sp.Integer(i)}) for i in RANGES[s.args[1]]))
+            for s in sums
+        }
     )
 
 
