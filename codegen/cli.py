@@ -67,7 +67,7 @@ def run(as_json: Json = False, jobs: Jobs = CORES) -> None:
 
     with one_sentence():
         here = places.checkout()
-    outcome = pipeline.run(here, jobs, lambda name: show.progress(name, lines=True))
+    outcome = pipeline.run(here, jobs, lambda name: show.progress(name, kept=True))
     rows = summary.rows(outcome, here)
     if as_json:
         show.as_json([row.__dict__ for row in rows])
@@ -249,7 +249,7 @@ def measure(
 
     with one_sentence():
         path = out or places.checkout().measurement(quick=quick)
-        with show.progress("measure", lines=True) as tell:
+        with show.progress("measure", kept=True) as tell:
             survey.measure(path, survey.settings(quick=quick), tell)
     _written([path], as_json)
 

@@ -63,10 +63,12 @@ def as_json(value: object) -> None:
 
 
 @contextmanager
-def progress(title: str, *, lines: bool = False) -> Iterator[Tell]:
-    """A bar on standard error if that is a terminal; otherwise a line a step if asked for."""
+def progress(title: str, *, kept: bool = False) -> Iterator[Tell]:
+    """A bar on standard error if that is a terminal; ``kept`` stays, and is a line in a pipe."""
     if not sys.stderr.isatty():
-        yield _line if lines else _silent
+        if kept:
+            print(title, file=sys.stderr, flush=True)
+        yield _silent
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
@@ -78,19 +80,13 @@ def progress(title: str, *, lines: bool = False) -> Iterator[Tell]:
         TimeElapsedColumn(),
         TextColumn("{task.fields[step]}"),
     )
-    with Progress(*look, console=Console(stderr=True), transient=not lines) as bars:
+    with Progress(*look, console=Console(stderr=True), transient=not kept) as bars:
         task = bars.add_task(title, total=None, step="")
         yield lambda name, done, total: bars.update(task, completed=done, total=total, step=name)
 
 
 def _silent(name: str, done: int, total: int) -> None:
     """Nothing to tell: the output is a pipe."""
-
-
-def _line(name: str, done: int, total: int) -> None:
-    print(
-        f"{done + 1}/{total} {name}" if done < total else f"{total}/{total} done", file=sys.stderr
-    )
 
 
 def evidence_table(evidence: Sequence[Evidence]) -> None:
