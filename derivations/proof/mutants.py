@@ -1,8 +1,8 @@
 """Broken twins of a transcription: each differs from it in one small way.
 
-Signs, terms, factors, coefficients, exponents (p against 1/p among them), swapped symbols and
-indices, derivative variables, limits of integrals, directions of inequalities. A check must
-reject every mutant or prove that it says the same.
+Signs, terms, factors, coefficients, exponents (p against 1/p among them), swapped symbols,
+indices, sines and cosines, dropped derivatives, derivative variables, limits of integrals,
+directions of inequalities. A check must reject every mutant or prove that it says the same.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from rodproof.derivations.notation import GREEK, Chain, LimitOf, Partial
+from rodproof.derivations.notation import GREEK, Chain, LimitOf, Partial, Prime
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
+from rodproof.derivations.theory.frames import phi, psi, theta
 
 #: A symbol is swapped for the one that a tired author or typesetter would write in its place.
 _SIBLINGS = {
@@ -23,6 +24,9 @@ _SIBLINGS = {
     zeta: (eta, alpha),
     gamma: (alpha, eta),
     iota: (beta,),
+    phi: (theta,),
+    theta: (psi,),
+    psi: (phi,),
 }
 _BASES = {"u": "v", "v": "n", "m": "n", "n": "v"}
 _FLIPPED = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
@@ -91,6 +95,11 @@ def _here(node: sp.Basic) -> Iterator[tuple[str, sp.Basic]]:
     elif isinstance(node, sp.Symbol) and node in _SIBLINGS:
         for sibling in _SIBLINGS[node]:
             yield f"{node} replaced by {sibling}", sibling
+    elif isinstance(node, sp.sin | sp.cos):
+        other = sp.cos if isinstance(node, sp.sin) else sp.sin
+        yield f"{node} replaced by {other.__name__}", other(node.args[0])
+    elif isinstance(node, Prime):
+        yield f"derivative of {node.args[0]} dropped", node.args[0]
     elif isinstance(node, LimitOf):
         function, variable, target = node.args
         other = -target if target in (sp.oo, -sp.oo) else sp.oo
