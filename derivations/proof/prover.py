@@ -7,7 +7,7 @@ or the decision stays open (`holds` None, and never "true").
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -17,7 +17,7 @@ import sympy as sp
 from rodproof.derivations.exact.evaluate import Evaluator, context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Every, Iff, Implies, instances
-from rodproof.derivations.proof.meaning import IllTyped, Meaning
+from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
 
 DIGITS = 50
@@ -94,10 +94,29 @@ def _decide_claim(claim: sp.Basic, meaning: Meaning, explain: bool) -> Decision:
     if isinstance(claim, Implies):
         hypothesis, conclusion = claim.args
         facts = tuple(_difference(link, meaning) for link in hypothesis.links())
-        return _decide_chain(conclusion, replace(meaning, positive=meaning.positive + facts), explain)
+        return _decide_chain(conclusion, _given(meaning, hypothesis, facts), explain)
     if isinstance(claim, Iff):
         return _decide_equivalence(claim, meaning)
     raise IllTyped(f"no rule for a claim of the form {type(claim).__name__}")
+
+
+def _given(meaning: Meaning, hypothesis: Chain, facts: tuple[sp.Expr, ...]) -> Meaning:
+    """The domain narrowed by a hypothesis: its points, and what is positive there."""
+
+    def meets(point: Point) -> bool:
+        return all(bool(sp.N(fact.subs(point), 30) > 0) for fact in facts)
+
+    def sample(seed: int) -> Point:
+        found = (meaning.sample(k) for k in range(seed, seed + 200))
+        return next((point for point in found if meets(point)), meaning.sample(seed))
+
+    return replace(
+        meaning,
+        name=f"{meaning.name}, {hypothesis}",
+        positive=meaning.positive + facts,
+        sample=sample,
+        simple=lambda: tuple(point for point in meaning.simple() if meets(point)),
+    )
 
 
 def _decide_chain(claim: Chain, meaning: Meaning, explain: bool) -> Decision:
@@ -133,13 +152,23 @@ def _edge_failure(link: tuple[sp.Expr, str, sp.Expr], meaning: Meaning) -> Decis
         except ZeroDivisionError:
             sides = [sp.nan, sp.nan]
         where = tuple((str(k), str(v)) for k, v in edge.items())
-        if any(side.has(sp.nan, sp.zoo, sp.oo) or _power_of_zero(side) for side in sides):
+        undefined = any(_undefined(side, edge, meaning) for side in (link[0], link[2]))
+        if undefined or any(side.has(sp.nan, sp.zoo, sp.oo) or _power_of_zero(side) for side in sides):
             found = Counterexample(where, *(str(s) for s in sides))
             return Decision(False, True, "undefined on the edge of the domain", found)
         if sp.expand(sides[0] - sides[1]) != 0:
             found = Counterexample(where, *(str(s) for s in sides))
             return Decision(False, True, "counterexample on the edge of the domain", found)
     return None
+
+
+def _undefined(side: sp.Expr, edge: Mapping[sp.Symbol, sp.Expr], meaning: Meaning) -> bool:
+    """Does the transcription itself divide by zero there, even if a zero factor hides it?"""
+    return any(
+        not power.exp.is_positive and meaning.interpret(power.base).subs(edge) == 0
+        for power in side.atoms(sp.Pow)
+        if not power.base.is_Symbol and not power.base.is_number
+    )
 
 
 def _power_of_zero(expr: sp.Basic) -> bool:

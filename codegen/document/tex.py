@@ -1,0 +1,104 @@
+"""Small pieces of LaTeX: escaping, mathematics inside prose, displays that never run over."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+_GREEK = ("alpha", "beta", "gamma", "zeta", "eta", "iota", "theta", "varphi", "phi", "psi", "rho",
+          "mu", "nu", "sigma", "eps", "pi", "tau", "chi", "delta", "kappa", "omega", "lambda")  # fmt: skip
+_SPECIAL = {"&": r"\&", "%": r"\%", "#": r"\#", "$": r"\$", "_": r"\_", "{": r"\{", "}": r"\}",
+            "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "\\": r"\textbackslash{}"}  # fmt: skip
+_MATH_WORD = re.compile(
+    r"[\^_*=<>/]|^-?\d*(" + "|".join(_GREEK) + r")$|^[a-zA-Z]$|^[A-Za-z]\([^)]*\)$|^oo$|->"
+)
+_OPERATORS = frozenset(("=", "<", ">", ">=", "<=", "->", "+", "-", ".", "x"))
+
+
+def escape(text: str) -> str:
+    """Plain text with LaTeX's special characters made harmless."""
+    return "".join(_SPECIAL.get(c, c) for c in text)
+
+
+def prose(text: str) -> str:
+    """Our sentences, with formulas like `gamma^p + Q*^{p/2}` set as mathematics.
+
+    A run of words that look like mathematics becomes one formula; everything else is text.
+    """
+    out: list[str] = []
+    run: list[str] = []
+    for word in _words(text):
+        if _is_math(word) or (run and word in _OPERATORS):
+            run.append(word)
+            continue
+        _close(run, out)
+        out.append(escape(word))
+    _close(run, out)
+    return " ".join(out)
+
+
+def _words(text: str) -> list[str]:
+    """Words, with a bracketed formula kept in one piece."""
+    words: list[str] = []
+    depth = 0
+    for word in text.split(" "):
+        if depth > 0 and words:
+            words[-1] += " " + word
+        else:
+            words.append(word)
+        opened = word.count("(") + word.count("{") + word.count("[")
+        depth = max(0, depth + opened - word.count(")") - word.count("}") - word.count("]"))
+        if depth and not re.search(r"[\^_*=]|\w\(", words[-1]):
+            depth = 0  # an ordinary parenthesis in a sentence
+    return words
+
+
+def _is_math(word: str) -> bool:
+    core = word.strip(".,;:()")
+    if word in ("a", "A", "I", "by", "if", "/") or not core or "-" in core.strip("-") and core.isalpha():
+        return False
+    return bool(_MATH_WORD.search(core)) and not re.search(r"[A-Za-z]{4,}/[a-z]{3,}|'", core)
+
+
+def _close(run: list[str], out: list[str]) -> None:
+    if not run:
+        return
+    text = " ".join(run)
+    run.clear()
+    body = text.rstrip(".,;:")
+    tail = text[len(body) :]
+    head = ""
+    while body.startswith("(") and body.count("(") > body.count(")"):
+        head, body = head + "(", body[1:]
+    while body.endswith(")") and body.count(")") > body.count("("):
+        tail, body = ")" + tail, body[:-1]
+    out.append(f"{head}${mathematics(body)}${tail}")
+
+
+def mathematics(text: str) -> str:
+    """Plain-text mathematics as LaTeX: Greek names, relations, primes."""
+    text = re.sub(r"(?<![A-Za-z\\])(" + "|".join(_GREEK) + r")(?![A-Za-z])", r"\\\1 ", text)
+    text = text.replace(r"\eps", r"\varepsilon").replace("Q*", "Q^*").replace("W*", "W^*")
+    text = re.sub(r"\^\*\^", "^{*}{}^", text)
+    for plain, tex in (("->", r"\to "), (">=", r"\geq "), ("<=", r"\leq "), ("*", r" "),
+                       (" . ", r" \cdot "), (" x ", r" \times "), ("sup ", r"\sup "),
+                       ("int_", r"\int_")):  # fmt: skip
+        text = text.replace("^" + plain, "\0") if plain == "*" else text
+        text = text.replace(plain, tex).replace("\0", "^*") if plain == "*" else text.replace(plain, tex)
+    return re.sub(r"(?<![A-Za-z])oo(?![A-Za-z])", r"\\infty", text)
+
+
+def display(rows: Sequence[str], label: str = "") -> str:
+    """A numbered display (unnumbered without a label), shrunk where a row is too wide."""
+    if len(rows) > 1:
+        body = r"\begin{aligned}" + " \\\\\n".join(rows) + r"\end{aligned}"
+    else:
+        body = rows[0].replace("&=", "=", 1).replace("&<", "<", 1).replace("&>", ">", 1)
+        body = body.replace(r"&\leq", r"\leq", 1).replace(r"&\geq", r"\geq", 1)
+    environment = "equation" if label else "equation*"
+    mark = rf"\label{{{label}}}" if label else ""
+    return (
+        f"\\begin{{{environment}}}{mark}\n"
+        rf"\adjustbox{{max width=0.92\linewidth}}{{$\displaystyle {body}$}}"
+        f"\n\\end{{{environment}}}"
+    )
