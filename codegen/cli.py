@@ -201,19 +201,10 @@ def generate(
             _written(generator.write(wanted, folder, verdicts), as_json)
             return
         found = generator.check(folder, chosen, verdicts)
-    _show_differences([(entry.path, entry.kind, entry.diff) for entry in found], as_json)
-
-
-def _show_differences(found: list[tuple[str, str, str]], as_json: bool) -> None:
-    if as_json:
-        show.as_json([{"path": path, "kind": kind, "diff": diff} for path, kind, diff in found])
-    for path, kind, diff in () if as_json else found:
-        typer.echo(f"generated/{path}: {kind}\n{diff}", nl=False)
+    show.file_differences(found, as_json)
     if found:
         typer.echo("to accept: rodproof generate (and delete what is stray)", err=True)
         raise typer.Exit(DIFFERENT_FILES)
-    if not as_json:
-        typer.echo("generated/ is what the source gives")
 
 
 @app.command()

@@ -7,9 +7,11 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from rodproof.codegen.generate import Difference
     from rodproof.derivations.records import Evidence
 
 #: Tells that step ``name`` is being done, as number ``done`` of ``total``.
@@ -171,3 +173,14 @@ def differences(evidence: Sequence[Evidence], recorded: Mapping[str, str]) -> li
         for row in evidence
         if row.verdict == "undecided" or row.verdict != recorded.get(row.id)
     ]
+
+
+def file_differences(found: Sequence[Difference], json_wanted: bool) -> None:
+    """How generated files differ from what the source gives."""
+    if json_wanted:
+        as_json([asdict(difference) for difference in found])
+        return
+    for difference in found:
+        print(f"generated/{difference.path}: {difference.kind}\n{difference.diff}", end="")
+    if not found:
+        print("generated/ is what the source gives")
