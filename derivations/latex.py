@@ -8,7 +8,7 @@ import sympy as sp
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 
-from rodproof.derivations.notation import Chain, Every
+from rodproof.derivations.notation import Chain, Every, Implies
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 
 _NAMES = {
@@ -82,9 +82,13 @@ class _Printer(LatexPrinter):
         top = " ".join(map(self._factor, above)) or "1"
         pieces = [self._factor(f) for f in front]
         if below:
-            denominator = " ".join(map(self._factor, below)) if len(below) > 1 else self._print(below[0])
+            denominator = (
+                " ".join(map(self._factor, below)) if len(below) > 1 else self._print(below[0])
+            )
             numerator = self._print(above[0]) if len(above) == 1 else top
-            pieces.insert(0 if not above else len(pieces), rf"\frac{{{numerator}}}{{{denominator}}}")
+            pieces.insert(
+                0 if not above else len(pieces), rf"\frac{{{numerator}}}{{{denominator}}}"
+            )
         elif above:
             position = 0 if above[0].is_number or above[0] == gamma else len(pieces)
             pieces.insert(position, top)
@@ -99,7 +103,7 @@ class _Printer(LatexPrinter):
 
 def _is_heavy(factor: sp.Expr) -> bool:
     """Real powers read better beside a fraction than in it."""
-    return not factor.as_base_exp()[1].is_Rational
+    return isinstance(factor, sp.hyper) or not factor.as_base_exp()[1].is_Rational
 
 
 def _inline(exponent: sp.Expr) -> str:
@@ -125,6 +129,15 @@ def rows(tree: sp.Basic) -> tuple[str, ...]:
     """A formula as the rows of an `aligned` block, broken where claims and relations begin."""
     if isinstance(tree, Every | sp.Tuple) and all(isinstance(a, Chain) for a in tree.args):
         return tuple(row for claim in tree.args for row in rows(claim))
+    if isinstance(tree, Implies):
+        hypothesis, conclusion = tree.args
+        inner = rows(conclusion) if isinstance(conclusion, Every) else (latex(conclusion),)
+        return (
+            rf"&{latex(hypothesis)} \implies",
+            *(row if "&" in row else rf"&\quad {row}" for row in inner),
+        )
+    if isinstance(tree, Every):
+        return tuple(row if "&" in row else "&" + row for a in tree.args for row in rows(a))
     if isinstance(tree, Chain) and len(latex(tree)) > 90:
         printer = _Printer({"fold_frac_powers": True})
         marks = {"=": "=", "<": "<", "<=": r"\leq", ">": ">", ">=": r"\geq"}
@@ -136,6 +149,14 @@ def rows(tree: sp.Basic) -> tuple[str, ...]:
         left, _, right = latex(tree).partition(" " + _mark(tree) + " ")
         return (rf"{left} &{_mark(tree)} {right}",)
     return (latex(tree),)
+
+
+def block(tree: sp.Basic) -> str:
+    """A formula of one or several rows, to stand between display delimiters."""
+    lines = rows(tree)
+    if len(lines) == 1:
+        return latex(tree)
+    return r"\begin{aligned}" + r" \\ ".join(lines) + r"\end{aligned}"
 
 
 def _mark(chain: Chain) -> str:

@@ -17,7 +17,7 @@ from contextlib import nullcontext
 from functools import cache
 from pathlib import Path
 
-from rodproof.derivations.latex import latex
+from rodproof.derivations.latex import block
 from rodproof.derivations.proof.mutants import mutants as broken_twins
 from rodproof.derivations.proof.prover import DIGITS, POINTS
 from rodproof.derivations.records import Confirmation, Decision, Evidence, Statement
@@ -143,7 +143,7 @@ def judge(statement: Statement, *, mutants: bool = False) -> Evidence:
         mutants_killed=tried.killed if tried else None,
         mutants_equivalent=tried.equivalent if tried else None,
         counterexample=str(printed.counterexample) if printed.counterexample else None,
-        correction_latex=latex(statement.correction) if statement.correction else None,
+        correction_latex=block(statement.correction) if statement.correction else None,
         reading=statement.reading or None,
         claim=statement.claim,
         latex=statement.latex,

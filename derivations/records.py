@@ -20,7 +20,8 @@ class Counterexample:
 
     def __str__(self) -> str:
         where = ", ".join(f"{name} = {value}" for name, value in self.point)
-        return f"at {where}: {self.left} against {self.right}"
+        left, right = (side.replace("**", "^") for side in (self.left, self.right))
+        return f"at {where}: {left} against {right}"
 
 
 @dataclass(frozen=True)

@@ -7,15 +7,21 @@ from collections.abc import Sequence
 from rodproof.derivations.records import Evidence
 
 
+_PREFACE = (
+    "Written by `rodproof errata --out`; every entry is decided by the derivation, and each "
+    "corrected statement is itself proved."
+)
+
+
 def render(evidence: Sequence[Evidence]) -> str:
     """Refuted statements with counterexample and correction, then the readings."""
     refuted = [e for e in evidence if e.verdict == "refuted"]
     readings = [e for e in evidence if e.verdict == "reading"]
     parts = [
         "# Errata",
-        "Written by `rodproof errata --out`; every entry is decided by the derivation, and each "
-        "corrected statement is itself proved.",
-        f"{len(refuted)} statements are false as printed, {len(readings)} are true under a reading.",
+        _PREFACE,
+        f"{len(refuted)} statements are false as printed, "
+        + f"{len(readings)} are true under a reading.",
         "## False as printed",
         *(_refuted(e) for e in refuted),
         "## True under a reading",

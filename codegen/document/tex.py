@@ -5,10 +5,42 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-_GREEK = ("alpha", "beta", "gamma", "zeta", "eta", "iota", "theta", "varphi", "phi", "psi", "rho",
-          "mu", "nu", "sigma", "eps", "pi", "tau", "chi", "delta", "kappa", "omega", "lambda")  # fmt: skip
-_SPECIAL = {"&": r"\&", "%": r"\%", "#": r"\#", "$": r"\$", "_": r"\_", "{": r"\{", "}": r"\}",
-            "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "\\": r"\textbackslash{}"}  # fmt: skip
+_GREEK = (
+    "alpha",
+    "beta",
+    "gamma",
+    "zeta",
+    "eta",
+    "iota",
+    "theta",
+    "varphi",
+    "phi",
+    "psi",
+    "rho",
+    "mu",
+    "nu",
+    "sigma",
+    "eps",
+    "pi",
+    "tau",
+    "chi",
+    "delta",
+    "kappa",
+    "omega",
+    "lambda",
+)
+_SPECIAL = {
+    "&": r"\&",
+    "%": r"\%",
+    "#": r"\#",
+    "$": r"\$",
+    "_": r"\_",
+    "{": r"\{",
+    "}": r"\}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "\\": r"\textbackslash{}",
+}
 _MATH_WORD = re.compile(
     r"[\^_*=<>/]|^-?\d*(" + "|".join(_GREEK) + r")$|^[a-zA-Z]$|^[A-Za-z]\([^)]*\)$|^oo$|->"
 )
@@ -23,8 +55,16 @@ def escape(text: str) -> str:
 def prose(text: str) -> str:
     """Our sentences, with formulas like `gamma^p + Q*^{p/2}` set as mathematics.
 
-    A run of words that look like mathematics becomes one formula; everything else is text.
+    What stands between backticks is mathematics. Outside them a run of words that look like
+    mathematics becomes one formula; everything else is text.
     """
+    parts = text.split("`")
+    return "".join(
+        f"${mathematics(part)}$" if k % 2 else _sentence(part) for k, part in enumerate(parts)
+    )
+
+
+def _sentence(text: str) -> str:
     out: list[str] = []
     run: list[str] = []
     for word in _words(text):
@@ -55,7 +95,11 @@ def _words(text: str) -> list[str]:
 
 def _is_math(word: str) -> bool:
     core = word.strip(".,;:()")
-    if word in ("a", "A", "I", "by", "if", "/") or not core or "-" in core.strip("-") and core.isalpha():
+    if (
+        word in ("a", "A", "I", "by", "if", "/")
+        or not core
+        or ("-" in core.strip("-") and core.isalpha())
+    ):
         return False
     return bool(_MATH_WORD.search(core)) and not re.search(r"[A-Za-z]{4,}/[a-z]{3,}|'", core)
 
@@ -76,16 +120,31 @@ def _close(run: list[str], out: list[str]) -> None:
 
 
 def mathematics(text: str) -> str:
-    """Plain-text mathematics as LaTeX: Greek names, relations, primes."""
+    """Plain-text mathematics as LaTeX: Greek names, relations, products, primes."""
+    text = text.replace("**", "^").replace("Q*", "Q^{*}").replace("W*", "W^{*}")
+    text = re.sub(r"(?<=\w)\*(?=\w)", " ", text)
+    text = re.sub(r"\^\{\*\}\^\{?(-?[\w/]+)\}?", r"^{*\\,\1}", text)
     text = re.sub(r"(?<![A-Za-z\\])(" + "|".join(_GREEK) + r")(?![A-Za-z])", r"\\\1 ", text)
-    text = text.replace(r"\eps", r"\varepsilon").replace("Q*", "Q^*").replace("W*", "W^*")
-    text = re.sub(r"\^\*\^", "^{*}{}^", text)
-    for plain, tex in (("->", r"\to "), (">=", r"\geq "), ("<=", r"\leq "), ("*", r" "),
-                       (" . ", r" \cdot "), (" x ", r" \times "), ("sup ", r"\sup "),
-                       ("int_", r"\int_")):  # fmt: skip
-        text = text.replace("^" + plain, "\0") if plain == "*" else text
-        text = text.replace(plain, tex).replace("\0", "^*") if plain == "*" else text.replace(plain, tex)
-    return re.sub(r"(?<![A-Za-z])oo(?![A-Za-z])", r"\\infty", text)
+    text = text.replace("\\eps ", "\\varepsilon ")
+    for plain, tex in _SIGNS:
+        text = re.sub(plain, lambda _, tex=tex: tex, text)
+    return re.sub(r"(?<![A-Za-z\\])([unvmMN])([123])(?![0-9])", r"\1_\2", text)
+
+
+_SIGNS = (
+    (r"->", r"\to "),
+    (r">=", r"\geq "),
+    (r"<=", r"\leq "),
+    (r" \. ", r" \cdot "),
+    (r"(?<![A-Za-z\\])sup ", r"\sup "),
+    (r"(?<![A-Za-z\\])lim_", r"\lim_"),
+    (r"(?<![A-Za-z\\])int_", r"\int_"),
+    (r"(?<![A-Za-z])oo(?![A-Za-z])", r"\infty "),
+    (r"(?<![A-Za-z])khat(?![A-Za-z])", r"\hat k"),
+    (r"(?<![A-Za-z])yhat(?![A-Za-z])", r"\hat y"),
+    (r"(?<![A-Za-z\\])int ", r"\int "),
+    (r"(?<![A-Za-z\\])(?=(?:sin|cos|tan|cot|log|exp)(?![a-z]))", "\\"),
+)
 
 
 def display(rows: Sequence[str], label: str = "") -> str:

@@ -50,41 +50,52 @@ def _forms() -> Derivation:
         "rest, its dual, and when they are positive definite.",
         steps=(
             Step(
-                "The stiffness at rest", "Hemitropy leaves five moduli; divide them by gamma. "
-                "Order: u_1, u_2, u_3, v_1, v_2, v_3 - 1.",
-                equal(K, stiffness), statements=("small-strain-moduli",),
+                "The stiffness at rest",
+                "Hemitropy leaves five moduli; divide them by gamma. "
+                "Order: `u_1, u_2, u_3, v_1, v_2, v_3 - 1`.",
+                equal(K, stiffness),
+                statements=("small-strain-moduli",),
             ),
             Step(
-                "The form Q", "Q = eps . K eps with eps = (u, v - e_3).",
+                "The form Q",
+                "`Q = eps . K eps` with `eps = (u, v - e_3)`.",
                 equal(
                     Q(u, v),
-                    alpha**2 * (u[1] ** 2 + u[2] ** 2) + beta**2 * u[3] ** 2
-                    + zeta**2 * (v[1] ** 2 + v[2] ** 2) + eta**2 * (v[3] - 1) ** 2
+                    alpha**2 * (u[1] ** 2 + u[2] ** 2)
+                    + beta**2 * u[3] ** 2
+                    + zeta**2 * (v[1] ** 2 + v[2] ** 2)
+                    + eta**2 * (v[3] - 1) ** 2
                     + 2 * iota * u[3] * (v[3] - 1),
                 ),
-                Identity(ON_STRAINS), ("q-form",),
+                Identity(ON_STRAINS),
+                ("q-form",),
             ),
             Step(
-                "When K is positive definite", "Sylvester: the leading minors are products of "
+                "When K is positive definite",
+                "Sylvester: the leading minors are products of "
                 "squares and of the determinant of the twist-dilatation block.",
-                positive(chiral_gap), rules.COUPLING,
+                positive(chiral_gap),
+                rules.COUPLING,
                 ("constants-hypothesis", "q-forms-positive-definite"),
             ),
             Step(
-                "The inverse of K", "Invert the 2x2 block; the rest is diagonal.",
+                "The inverse of K",
+                "Invert the two by two block; the rest is diagonal.",
                 equal(K_inverse, compliance),
                 MatrixIdentity(stiffness * compliance, sp.eye(6), (chiral_gap,)),
             ),
             Step(
-                "The dual form", "Q* = sigma . K^{-1} sigma with sigma = (m, n).",
+                "The dual form",
+                "`Q* = sigma . K^{-1} sigma` with `sigma = (m, n)`.",
                 equal(
                     Qstar(m, n),
                     (m[1] ** 2 + m[2] ** 2) / alpha**2 + (n[1] ** 2 + n[2] ** 2) / zeta**2 + twist,
                 ),
-                Identity(ON_LOADS), ("qstar-form",),
+                Identity(ON_LOADS),
+                ("qstar-form",),
             ),
         ),
-    )  # fmt: skip
+    )
 
 
 def _strains() -> Derivation:
@@ -93,31 +104,39 @@ def _strains() -> Derivation:
     return Derivation(
         label="strains",
         title="Strains as the gradient of the complementary energy",
-        problem="Given W* as an integral up to Q*, find the strains.",
+        problem="Given `W*` as an integral up to `Q*`, find the strains.",
         steps=(
             Step(
-                "The complementary energy", "The one constitutive assumption.",
+                "The complementary energy",
+                "The one constitutive assumption.",
                 equal(energy, sp.Integral(integrand, (t, 0, Qstar(m, n))) / 2),
-                rules.COMPLEMENTARY_POTENTIAL, ("wstar-definition",),
+                rules.COMPLEMENTARY_POTENTIAL,
+                ("wstar-definition",),
             ),
             *(
                 Step(
-                    title, "Fundamental theorem of calculus: the integrand at Q*, times half the "
-                    "derivative of Q*.",
+                    title,
+                    "Fundamental theorem of calculus: the integrand at `Q*`, times half "
+                    "the derivative of `Q*`.",
                     equal(strain, Partial(energy, load), _strain_factor * row),
-                    Identity(ON_LOADS), (name, "wstar-gradient"),
+                    Identity(ON_LOADS),
+                    (name, "wstar-gradient"),
                 )
                 for title, name, strain, load, row in (
                     ("Flexure", "const-u-mu", u[mu], m[mu], m[mu] / alpha**2),
-                    ("Twist", "const-u-3", u[3], m[3],
-                     (eta**2 * m[3] - iota * n[3]) / chiral_gap),
+                    ("Twist", "const-u-3", u[3], m[3], (eta**2 * m[3] - iota * n[3]) / chiral_gap),
                     ("Shear", "const-v-mu", v[mu], n[mu], n[mu] / zeta**2),
-                    ("Dilatation", "const-v-3", v[3] - 1, n[3],
-                     (-iota * m[3] + beta**2 * n[3]) / chiral_gap),
+                    (
+                        "Dilatation",
+                        "const-v-3",
+                        v[3] - 1,
+                        n[3],
+                        (-iota * m[3] + beta**2 * n[3]) / chiral_gap,
+                    ),
                 )
             ),
         ),
-    )  # fmt: skip
+    )
 
 
 def _loads() -> Derivation:
@@ -125,71 +144,90 @@ def _loads() -> Derivation:
     return Derivation(
         label="inverse",
         title="The inverse law, solved for the loads",
-        problem="The strains are f K^{-1} sigma with one scalar f. Solve for sigma.",
+        problem="The strains are `f K^{-1} sigma` with one scalar `f`. Solve for sigma.",
         steps=(
             Step(
-                "The law between the radii", "Take the K-norm of both sides: x = Q^{1/2} and "
-                "y = Q*^{1/2} satisfy x = f y.",
-                equal(x, y * (gamma**p + y**p) ** (-1 / p)), Identity(rules.ON_RADII),
+                "The law between the radii",
+                "Take the norm of `K` on both sides: `x = Q^{1/2}` and `y = Q*^{1/2}` satisfy "
+                "`x = f y`.",
+                equal(x, y * (gamma**p + y**p) ** (-1 / p)),
+                Identity(rules.ON_RADII),
             ),
             Step(
-                "Solved for y", "x^p (gamma^p + y^p) = y^p is linear in y^p; both compositions are "
-                "the identity, so [0, oo) and [0, 1) correspond one to one.",
-                equal(y, gamma * x * (1 - x**p) ** (-1 / p)), rules.INVERSION,
+                "Solved for y",
+                "`x^p (gamma^p + y^p) = y^p` is linear in `y^p`; both compositions "
+                "are the identity, so `[0, oo)` and `[0, 1)` correspond one to one.",
+                equal(y, gamma * x * (1 - x**p) ** (-1 / p)),
+                rules.INVERSION,
                 ("inversion-claim", "inverse-domain"),
             ),
             *(
                 Step(
-                    title, "sigma = (y/x) K eps.", equal(load, _load_factor * row),
-                    Identity(ON_STRAINS), (name,),
+                    title,
+                    "`sigma = (y/x) K eps`.",
+                    equal(load, _load_factor * row),
+                    Identity(ON_STRAINS),
+                    (name,),
                 )
                 for title, name, load, row in (
                     ("Bending couples", "const-m-mu", m[mu], alpha**2 * u[mu]),
-                    ("Twisting couple", "const-m-3", m[3],
-                     beta**2 * u[3] + iota * (v[3] - 1)),
+                    ("Twisting couple", "const-m-3", m[3], beta**2 * u[3] + iota * (v[3] - 1)),
                     ("Shear forces", "const-n-mu", n[mu], zeta**2 * v[mu]),
                     ("Tension", "const-n-3", n[3], iota * u[3] + eta**2 * (v[3] - 1)),
                 )
             ),
             Step(
-                "No saturation", "Were a strain constant beyond some load, two loads would share "
+                "No saturation",
+                "Were a strain constant beyond some load, two loads would share "
                 "it and no inverse could exist.",
-                equal(rules.s(rules.Y), rules.s(2 * rules.Y)), rules.SATURATION,
+                equal(rules.s(rules.Y), rules.s(2 * rules.Y)),
+                rules.SATURATION,
                 ("saturation-not-invertible",),
             ),
         ),
-    )  # fmt: skip
+    )
 
 
 def _limits() -> Derivation:
     root = 1 / sp.sqrt(chiral_gap)
     cases = (
-        ("Flexure", "bound-u-perp", sp.sqrt(u[1] ** 2 + u[2] ** 2), 1 / alpha,
-         rules.flexure_bound()),
+        (
+            "Flexure",
+            "bound-u-perp",
+            sp.sqrt(u[1] ** 2 + u[2] ** 2),
+            1 / alpha,
+            rules.flexure_bound(),
+        ),
         ("Twist", "bound-u3", sp.Abs(u[3]), eta * root, rules.twist_bound()),
         ("Shear", "bound-v-perp", sp.sqrt(v[1] ** 2 + v[2] ** 2), 1 / zeta, rules.shear_bound()),
         ("Dilatation", "bound-v3", sp.Abs(v[3] - 1), beta * root, rules.dilatation_bound()),
-    )  # fmt: skip
+    )
     return Derivation(
         label="strain-limit",
         title="The strain limit and its sharp bounds",
         problem="Which strains can occur, and how large can each become?",
         steps=(
             Step(
-                "The limit", "x^p = y^p/(gamma^p + y^p) < 1, increasing to 1 with the load.",
-                chain(Q(u, v), "<", 1), rules.STRAIN_LIMIT, ("strain-limit",),
+                "The limit",
+                "`x^p = y^p/(gamma^p + y^p) < 1`, increasing to 1 with the load.",
+                chain(Q(u, v), "<", 1),
+                rules.STRAIN_LIMIT,
+                ("strain-limit",),
             ),
             *(
                 Step(
-                    title, "Support function of the ellipsoid Q < 1: sup |a . eps| = "
-                    "(a . K^{-1} a)^{1/2}, at eps = K^{-1} a/(a . K^{-1} a)^{1/2} on its surface, "
-                    "so never attained.",
-                    chain(functional, "<", bound), check, (name,),
+                    title,
+                    "Support function of the ellipsoid `Q < 1`: `sup |a . eps| = "
+                    "(a . K^{-1} a)^{1/2}`, at `eps = K^{-1} a/(a . K^{-1} a)^{1/2}` on its "
+                    "surface, so never attained.",
+                    chain(functional, "<", bound),
+                    check,
+                    (name,),
                 )
                 for title, name, functional, bound, check in cases
             ),
         ),
-    )  # fmt: skip
+    )
 
 
 def _moduli() -> Derivation:
@@ -197,11 +235,12 @@ def _moduli() -> Derivation:
     return Derivation(
         label="small-strain",
         title="The linear law near rest",
-        problem="What is the law to leading order in (u, v - e_3)?",
+        problem="What is the law to leading order in `(u, v - e_3)`?",
         steps=(
             Step(
-                "Leading order", "sigma(h eps)/h = gamma (1 - h^p Q^{p/2})^{-1/p} K eps, and "
-                "h^p -> 0 for every p > 0.",
+                "Leading order",
+                "`sigma(h eps)/h = gamma (1 - h^p Q^{p/2})^{-1/p} K eps`, and "
+                "`h^p -> 0` for every `p > 0`.",
                 Every(
                     equal(m[mu], gamma * alpha**2 * u[mu]),
                     equal(m[3], gamma * beta**2 * u[3] + gamma * iota * (v[3] - 1)),
@@ -212,20 +251,22 @@ def _moduli() -> Derivation:
                 ("small-strain-m-mu", "small-strain-m-3", "small-strain-n-mu", "small-strain-n-3"),
             ),
             Step(
-                "Chirality", "Only the coupling changes sign in a mirror.",
+                "Chirality",
+                "Only the coupling changes sign in a mirror.",
                 Every(
                     equal(Partial(m[3], v[3]), gamma * iota),
                     equal(Partial(n[3], u[3]), gamma * iota),
                     equal(MIRRORED_FORM, Q(u, v) - 4 * iota * u[3] * (v[3] - 1)),
                 ),
-                near, ("chirality-constant",),
+                near,
+                ("chirality-constant",),
             ),
             Step(
-                "Dimensions", "Q is a number and gamma^2 has the dimension of Q*.",
+                "Dimensions",
+                "`Q` is a number and `gamma^2` has the dimension of `Q*`.",
                 sp.Tuple(*(rules.dim(c) for c in (alpha, beta, gamma, zeta, eta, iota, p))),
-                None, ("constants-dimensions", "seven-dimensionless-parameters"),
+                None,
+                ("constants-dimensions", "seven-dimensionless-parameters"),
             ),
         ),
-    )  # fmt: skip
-
-
+    )

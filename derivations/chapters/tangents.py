@@ -25,21 +25,27 @@ def _hessian() -> Derivation:
     return Derivation(
         label="hessian",
         title="Hessians of the two energies",
-        problem="Differentiate the law and its inverse once more. Write k = K eps and "
-        "e = K^{-1} sigma.",
+        problem="Differentiate the law and its inverse once more. Write `k = K eps` and "
+        "`e = K^{-1} sigma`.",
         steps=(
             Step(
-                "D^2 W", "Product rule: the radial factor times K, plus its own slope times a rank-"
-                "one matrix. At rest the second term tends to 0 for every p > 0.",
+                "D^2 W",
+                "Product rule: the radial factor times `K`, plus its own slope times a rank-one "
+                "matrix. At rest the second term tends to 0 for every `p > 0`.",
                 equal(
                     sp.Symbol("D2W"),
-                    gamma * (1 - q) ** (-1 / p) * (K + q / (1 - q) * k * sp.Symbol("k^T") / Q(u, v)),
+                    gamma
+                    * (1 - q) ** (-1 / p)
+                    * (K + q / (1 - q) * k * sp.Symbol("k^T") / Q(u, v)),
                 ),
-                MatrixIdentity(theory.stiffness(), theory.stiffness_structure(), ON_STRAINS.positive),
+                MatrixIdentity(
+                    theory.stiffness(), theory.stiffness_structure(), ON_STRAINS.positive
+                ),
                 ("hessian-blocks",),
             ),
             Step(
-                "D^2 W*", "The same for the strains as functions of the loads.",
+                "D^2 W*",
+                "The same for the strains as functions of the loads.",
                 equal(
                     sp.Symbol("D2Wstar"),
                     (gamma**p + q_star) ** (-1 / p)
@@ -50,13 +56,15 @@ def _hessian() -> Derivation:
                 ),
             ),
             Step(
-                "Each other's inverse", "At strains and loads that belong to each other the "
+                "Each other's inverse",
+                "At strains and loads that belong to each other the "
                 "Jacobians of inverse maps are inverse matrices.",
                 equal(sp.Symbol("D2W") * sp.Symbol("D2Wstar"), sp.Symbol("I")),
                 MatrixIdentity(
                     theory.stiffness() * theory.compliance().xreplace({s: loads[s] for s in LOADS}),
-                    sp.eye(6), ON_STRAINS.positive,
+                    sp.eye(6),
+                    ON_STRAINS.positive,
                 ),
             ),
         ),
-    )  # fmt: skip
+    )

@@ -82,8 +82,9 @@ class Evaluator:
 
     @_visit.register
     def _(self, expr: sp.hyper) -> Number:
-        return self.ctx.hyper([self(a) for a in expr.ap], [self(b) for b in expr.bq],
-                              self(expr.argument))
+        return self.ctx.hyper(
+            [self(a) for a in expr.ap], [self(b) for b in expr.bq], self(expr.argument)
+        )
 
     @_visit.register
     def _(self, expr: sp.Integral) -> Number:

@@ -184,8 +184,8 @@ def _constants_and_forms() -> tuple[Statement, ...]:
         Statement(
             id="q-forms-positive-definite", section=SECTION, label="-",
             claim="Under the printed inequality both quadratic forms are positive definite.",
-            latex=rf"\alpha^2\beta^2 - \iota^2 > 0 \implies Q = {q_tex},\; Q^* = {qstar_tex}"
-            r"\ \text{positive definite}",
+            latex=r"\begin{aligned} &\alpha^2\beta^2 - \iota^2 > 0 \implies \text{positive definite:}\\"
+            rf"&Q = {q_tex}\\ &Q^* = {qstar_tex}\end{{aligned}}",
             printed=definite(alpha**2 * beta**2 - iota**2, v),
             check=rules.FORMS, correction=definite(_D, n),
         ),

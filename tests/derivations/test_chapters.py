@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 
 import pytest
+
 from rodproof.derivations import chapters, ledger
 from rodproof.derivations.notation import Chain, equal
 

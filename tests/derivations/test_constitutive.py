@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 import sympy as sp
+
 from rodproof.derivations.exact.evaluate import Evaluator, context
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.proof import sampling
@@ -11,8 +12,7 @@ from rodproof.derivations.symbols import LOADS, STRAINS, chiral_gap, gamma, p
 from rodproof.derivations.theory import constitutive as law
 
 STRAINS_OF_LOADS = {
-    s: e + r
-    for s, e, r in zip(STRAINS, law.strains(), (0, 0, 0, 0, 0, 1), strict=True)
+    s: e + r for s, e, r in zip(STRAINS, law.strains(), (0, 0, 0, 0, 0, 1), strict=True)
 }
 
 
@@ -87,6 +87,7 @@ def test_chebyshev_p_two_over_k_is_elementary() -> None:
     primitive = sp.integrate(sp.expand_power_base(integrand), s)
     assert not primitive.has(sp.hyper, sp.Integral)
     value = (primitive.subs(s, x) - primitive.subs(s, 0)).subs(x, sp.Rational(1, 2))
-    evaluate = Evaluator(context(40), {p: sp.Rational(2, 3), gamma: sp.Integer(1),
-                                       law.x: sp.Rational(1, 8)})
+    evaluate = Evaluator(
+        context(40), {p: sp.Rational(2, 3), gamma: sp.Integer(1), law.x: sp.Rational(1, 8)}
+    )
     assert abs(evaluate(law.stored_energy_closed()) - evaluate(value)) < 10**-35

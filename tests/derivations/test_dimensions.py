@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 from rodproof.derivations.theory.dimensions import dimension, force, length, of_constants
 

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 import sympy as sp
+
 from rodproof.derivations import ledger
 from rodproof.derivations.notation import equal, m
 from rodproof.derivations.records import VERDICTS, Statement

@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+
 from rodproof.codegen import document
 from rodproof.codegen.document import tex
 from rodproof.derivations import chapters, ledger
