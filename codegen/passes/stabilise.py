@@ -37,7 +37,7 @@ u1, u2, u3, v1, v2, _ = STRAINS
 stretch, size, factor, share, q = map(symbol, ("stretch", "size", "factor", "share", "q"))
 chirality, gap, per_gap = map(symbol, ("chirality", "gap", "per_gap"))
 mu_1, mu_2, mu_3, nu_1, nu_2, nu_3 = map(symbol, ("mu_1", "mu_2", "mu_3", "nu_1", "nu_2", "nu_3"))
-per_eta_gap, iota_beta = symbol("per_eta_gap"), symbol("iota_beta")
+n3_dilates, m3_contracts = symbol("n3_dilates"), symbol("m3_contracts")
 twist, dilatation = symbol("twist"), symbol("dilatation")
 kappa_1, kappa_2, kappa_3 = map(symbol, ("kappa_1", "kappa_2", "kappa_3"))
 lam_1, lam_2, lam_3 = map(symbol, ("lam_1", "lam_2", "lam_3"))
@@ -48,8 +48,8 @@ CHIRAL_CONSTANTS = (
     Assignment("chirality", iota / (beta * eta)),
     Assignment("gap", chiral_gap / (beta * eta) ** 2),
     Assignment("per_gap", (beta * eta) ** 2 / chiral_gap),
-    Assignment("per_eta_gap", eta * beta**2 / chiral_gap),
-    Assignment("iota_beta", iota / beta**2),
+    Assignment("n3_dilates", eta * beta**2 / chiral_gap),
+    Assignment("m3_contracts", eta * iota / chiral_gap),
 )
 
 
@@ -108,7 +108,7 @@ COMPLETE_DUAL_FORM = Rule(
         Assignment("nu_1", n1 / zeta, (), "reduce_loads"),
         Assignment("nu_2", n2 / zeta, (), "reduce_loads"),
         Assignment("nu_3", n3 / eta, (), "reduce_loads"),
-        Assignment("dilatation", per_eta_gap * (n3 - iota_beta * m3), (), "reduce_loads"),
+        Assignment("dilatation", n3_dilates * n3 - m3_contracts * m3, (), "reduce_loads"),
         Assignment("twist", mu_3 - chirality * dilatation, (), "reduce_loads"),
     ),
     "near iota = beta eta the three coupled terms are large and cancel; Q* may even be negative",

@@ -188,6 +188,8 @@ def _call(step: Step, kernel: Kernel) -> list[str]:
     if not gauge:
         left = ", ".join(names) if set(names[:-1]) != {"_"} else f"*_, {names[-1]}"
         lines = [f"{left} = _{step.name}({given}, c)"]
+        if kernel.limit and kernel.limit.quantity in step.results:  # the guard answers for these
+            lines = ['with np.errstate(over="ignore", invalid="ignore"):', INDENT + lines[0]]
     else:
         values = names[:-1]
         radii = [n if n in needed else "_" for n in (gauge.norm, gauge.radius, gauge.square)]
@@ -297,7 +299,8 @@ def _past_limit(kernel: Kernel, steps: dict[str, Step], printer: Printer) -> str
     assert kernel.limit is not None
     step = next(s for s in steps.values() if kernel.limit.quantity in s.results)
     lines = _rest(kernel, printer)
-    lines += [f"{INDENT}*_, {kernel.limit.quantity} = _{step.name}(rest, c)"]
+    lines += [f'{INDENT}with np.errstate(over="ignore", invalid="ignore"):']
+    lines += [f"{INDENT * 2}*_, {kernel.limit.quantity} = _{step.name}(rest, c)"]
     return template.PAST_LIMIT.substitute(reduce="\n".join(lines), sentence=kernel.limit.sentence)
 
 

@@ -2,13 +2,13 @@
 
 Scene full_rod, made by: rodproof generate full_rod
 
-Statements it rests on (paper label, verdict): qstar-form Section 3.1 refuted; const-u-mu
-eq:uconst proved; const-u-3 eq:u3const proved; const-v-mu eq:vconst proved; const-v-3 eq:v3const
-proved; q-form eq:quadraticform definition; strain-limit eq:strainlimiting proved; const-m-mu
-eq:mconst proved; const-m-3 eq:m3const proved; const-n-mu eq:nconst proved; const-n-3 eq:n3const
-proved; w-definition eq:stenergy proved; wstar-definition eq:compenergy proved; hess-m-u;
-hess-m-u3; hess-m-v; hess-m-v3; hess-m3-u3; hess-m3-v; hess-m3-v3; hess-n-v; hess-n-v3;
-hess-n3-v3; wstar-gradient Section 3.1 proved.
+Statements it rests on (paper label, verdict; as corrected if refuted): qstar-form Section 3.1
+refuted; const-u-mu eq:uconst proved; const-u-3 eq:u3const proved; const-v-mu eq:vconst proved;
+const-v-3 eq:v3const proved; q-form eq:quadraticform definition; strain-limit eq:strainlimiting
+proved; const-m-mu eq:mconst proved; const-m-3 eq:m3const proved; const-n-mu eq:nconst proved;
+const-n-3 eq:n3const proved; w-definition eq:stenergy proved; wstar-definition eq:compenergy
+proved; hess-m-u; hess-m-u3; hess-m-v; hess-m-v3; hess-m3-u3; hess-m3-v; hess-m3-v3; hess-n-v;
+hess-n-v3; hess-n3-v3; wstar-gradient Section 3.1 proved.
 
 Domain: all finite loads; strains with Q(u, v) < 1, and an error at and past that limit.
 
@@ -61,8 +61,8 @@ class Constants:
     p: float
     chirality: float = field(init=False, repr=False, compare=False)
     gap: float = field(init=False, repr=False, compare=False)
-    per_eta_gap: float = field(init=False, repr=False, compare=False)
-    iota_beta: float = field(init=False, repr=False, compare=False)
+    n3_dilates: float = field(init=False, repr=False, compare=False)
+    m3_contracts: float = field(init=False, repr=False, compare=False)
     per_alpha: float = field(init=False, repr=False, compare=False)
     per_beta: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
@@ -86,8 +86,8 @@ class Constants:
         derived = {
             "chirality": iota / beta / eta,
             "gap": (beta**2 * eta**2 - iota**2) / beta**2 / eta**2,
-            "per_eta_gap": beta**2 * eta / (beta**2 * eta**2 - iota**2),
-            "iota_beta": iota / beta**2,
+            "n3_dilates": beta**2 * eta / (beta**2 * eta**2 - iota**2),
+            "m3_contracts": eta * iota / (beta**2 * eta**2 - iota**2),
             "per_alpha": 1 / alpha,
             "per_beta": 1 / beta,
             "per_zeta": 1 / zeta,
@@ -130,7 +130,7 @@ def _reduce_loads(loads: Rows, c: Constants) -> Rows:
     mu_3 = c.per_beta * m3
     nu_1 = c.per_zeta * n1
     nu_2 = c.per_zeta * n2
-    dilatation = c.per_eta_gap * (n3 - c.iota_beta * m3)
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
     twist = mu_3 - c.chirality * dilatation
     nu_3 = c.per_eta * n3
     q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2 + nu_1**2 + nu_2**2
@@ -180,7 +180,7 @@ def _balanced(
     Where squares would overflow or underflow the inputs are taken times a power of two, a factor
     that the values and their root share and that later cancels; the radius is free of it.
     """
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         *values, square = form(inputs, c)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
@@ -237,7 +237,8 @@ def _within_limit(q: Array) -> Array:
 def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueError:
     """The error for strains at or past the limit: how many points, the first and its Q."""
     rest = [*strains[:5], strains[5] - 1]
-    *_, q = _reduce_strains(rest, c)
+    with np.errstate(over="ignore", invalid="ignore"):
+        *_, q = _reduce_strains(rest, c)
     bad = np.flatnonzero(~(q < 1))
     index = tuple(map(int, np.unravel_index(bad[0], shape)))
     first = f"the first at index {index} with Q = {float(q[bad[0]])!r}"
@@ -335,7 +336,8 @@ def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None =
 def _loads(strains: Rows, c: Constants, m: Array, n: Array) -> None:
     """m = gamma (1 - Q^(p/2))^(-1/p) (K (u, v - e3))_m, n likewise (eq:mconst, eq:nconst)."""
     rest = [*strains[:5], strains[5] - 1]
-    kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
+    with np.errstate(over="ignore", invalid="ignore"):
+        kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
     q = _within_limit(q)
     *_, factor = _stiffen(q, c)
     bend = c.alpha * factor
@@ -404,7 +406,8 @@ def complementary_energy(
 def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u, v - e3)/x."""
     rest = [*strains[:5], strains[5] - 1]
-    kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
+    with np.errstate(over="ignore", invalid="ignore"):
+        kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
     q = _within_limit(q)
     growth, _, factor = _stiffen(q, c)
     steep = factor * growth

@@ -1,0 +1,208 @@
+"""Each rewriting rule twice: as an exact identity, and for its error beside what it replaces."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+import sympy as sp
+
+from rodproof.codegen import lower, scene
+from rodproof.codegen.kernel import Kernel, KernelError, Output
+from rodproof.codegen.passes import stabilise as rules
+from rodproof.codegen.passes.order import order
+from rodproof.codegen.passes.stabilise import RULES, Rule, apply
+from rodproof.codegen.primitives import WorkShare
+from rodproof.codegen.targets.mpmath_target import Evaluator
+from rodproof.derivations.theory import constitutive as theory
+
+NAIVE = {kernel.name: kernel for kernel in lower.lower(scene.committed("full_rod"))}
+STEPS = [(name, k) for name, chain in RULES.items() for k in range(len(chain))]
+
+
+def before_and_after(name: str, k: int) -> tuple[Kernel, Kernel]:
+    kernel = NAIVE[name]
+    for rule in RULES[name][:k]:
+        kernel = apply(rule, kernel)
+    return order(kernel), order(apply(RULES[name][k], kernel))
+
+
+def point(name: str, rng: random.Random) -> tuple[dict, dict]:
+    """A generic point of the kernel's domain, and constants."""
+    c = {n: rng.uniform(0.5, 2) for n in ("alpha", "beta", "zeta", "eta", "gamma")}
+    c |= {"iota": rng.uniform(-0.9, 0.9) * c["beta"] * c["eta"], "p": rng.uniform(0.4, 6)}
+    reach = 3 if NAIVE[name].inputs[0] == "m1" else 0.15
+    values = [rng.uniform(-reach, reach) for _ in range(6)]
+    values[5] += 1
+    return dict(zip(NAIVE[name].inputs, values, strict=True)), c
+
+
+@pytest.mark.parametrize(("name", "k"), STEPS, ids=[f"{n}-{RULES[n][k].name}" for n, k in STEPS])
+def test_rule_is_an_identity(name: str, k: int) -> None:
+    rng = random.Random(k)
+    before, after = before_and_after(name, k)
+    for _ in range(2):
+        where, constants = point(name, rng)
+        old = Evaluator(50).evaluate(before, where, constants)
+        new = Evaluator(50).evaluate(after, where, constants, scale=2.0**40)
+        size = max(map(abs, old.values()))
+        assert all(abs(old[key] - new[key]) < size * mpmath.mpf(10) ** -44 for key in old)
+
+
+@pytest.mark.parametrize(
+    "rule",
+    [rules.COMPLETE_DUAL_FORM, rules.COMPLETE_FORM, rules.REDUCE_STRAINS, rules.REDUCE_LOADS],
+)
+def test_rational_rules_are_exact(rule: Rule) -> None:
+    """With the definitions put in, both sides are the same rational function."""
+    lowered = dict(zip(rules.e, lower.strains_at_loads(), strict=True))
+    lowered |= dict(zip(rules.s, lower.loads_at_strains(), strict=True))
+    earlier = (*rules.COMPLETE_DUAL_FORM.definitions, *rules.COMPLETE_FORM.definitions)
+    defined = {a.symbol: a.expr for a in (*earlier, *rule.definitions, *rule.constants)}
+    for before, after in rule.pairs:
+        difference = (before - after).xreplace(lowered)
+        for _ in range(6):
+            difference = difference.xreplace(defined)
+        difference = difference.xreplace({rules.size: rules.y})  # the gauge of scale one
+        assert sp.cancel(difference) == 0
+
+
+def test_complements_are_exact() -> None:
+    """On |k| = 1 the sums of squares are K^-1 less the rank-one term, for any weight."""
+    reduced = [a.symbol for a in rules.COMPLETE_DUAL_FORM.definitions if a.name[:2] in ("mu", "nu")]
+    defined = {a.symbol: a.expr for a in (*rules.CHIRAL_CONSTANTS,)}
+    size = sp.sqrt(theory.dual_form())
+    defined |= {
+        a.symbol: a.expr for a in (*rules.COMPLETE_DUAL_FORM.definitions, *_directions().values())
+    }
+    moduli = dict(zip(rules.d, zip(rules.directions, rules.moduli, strict=True), strict=True))
+    defined |= {d: k / modulus for d, (k, modulus) in moduli.items()}
+    defined |= {rules.remain: 1 - rules.share, rules.tiny: sp.S.Zero}
+    assert len(reduced) == 6
+    for before, after in rules.COMPLEMENT_COMPLIANCE.pairs:
+        difference = before - after
+        for _ in range(8):
+            difference = difference.xreplace(defined)
+        difference = sp.together(difference.xreplace({rules.size: size}))
+        numerator = sp.expand(sp.fraction(sp.cancel(difference))[0])
+        assert numerator == 0
+
+
+def _directions() -> dict[str, rules.Assignment]:
+    skipped = {"ratio", "power", "remain"}
+    return {a.name: a for a in rules.COMPLEMENT_COMPLIANCE.definitions if a.name not in skipped}
+
+
+def test_work_share_is_the_ratio_of_energy_to_work() -> None:
+    """d/dx of the energy written with the share is the load, and both vanish at rest: exact."""
+    x, p = theory.x, sp.Symbol("p", positive=True)
+    depth = -sp.log(1 - x**p)
+    share = WorkShare(depth, p)
+    energy = x**2 * (1 - x**p) ** (-1 / p) * share
+    kept = sp.Symbol("share")
+    slope = sp.diff(energy, x).subs(share, kept)
+    assert sp.simplify(slope - x * (1 - x**p) ** (-1 / p)) == 0
+
+
+def test_rule_that_finds_nothing_is_refused() -> None:
+    with pytest.raises(KernelError, match="finds no"):
+        apply(rules.COMPLETE_FORM, NAIVE["strains"])
+
+
+def test_wrong_rule_is_rejected() -> None:
+    """A twin of the radial rule with the smaller of gamma and y outside is no identity."""
+    rule = rules.SCALE_RADIAL_FACTOR
+    wrong = replace(rule, pairs=((rule.pairs[0][0], rule.pairs[0][1] * 2),))
+    where, constants = point("strains", random.Random(1))
+    old = Evaluator(50).evaluate(NAIVE["strains"], where, constants)
+    new = Evaluator(50).evaluate(order(apply(wrong, NAIVE["strains"])), where, constants)
+    assert abs(old["u", (0,)] - new["u", (0,)]) > abs(old["u", (0,)]) / 10
+
+
+# --- error in doubles -----------------------------------------------------------------------
+
+MODULES = [
+    {
+        "log1p": np.log1p,
+        "expm1": np.expm1,
+        "Max": lambda *a: np.maximum.reduce(a),
+        "Min": lambda *a: np.minimum.reduce(a),
+    },
+    "numpy",
+]
+SMALL = {rules.tiny: sp.Float(float(np.finfo(float).tiny)), rules.log_max: sp.Integer(700)}
+
+
+def in_doubles(expr: sp.Expr, values: dict[str, float]) -> float:
+    symbols = sorted(expr.free_symbols, key=str)
+    with np.errstate(all="ignore"):
+        function = sp.lambdify(symbols, expr, MODULES)
+        return float(function(*(np.float64(values[s.name]) for s in symbols)))
+
+
+def unfolded(rule: Rule, expr: sp.Expr) -> sp.Expr:
+    """The right side with the rule's definitions put in, for one evaluation in doubles."""
+    for _ in range(6):
+        expr = expr.xreplace({a.symbol: a.expr for a in rule.definitions})
+    return expr.xreplace(SMALL)
+
+
+def ulps(got: float, want: mpmath.mpf) -> float:
+    return float(abs(mpmath.mpf(got) - want) / abs(want) * 2**52) if np.isfinite(got) else np.inf
+
+
+EDGES = [
+    (rules.SCALE_RADIAL_FACTOR, {"y": 1e10, "gamma": 1.5, "p": 40.0}),
+    (rules.SCALE_RADIAL_FACTOR, {"y": 1e-50, "gamma": 2e-50, "p": 8.0}),
+    (rules.SPLIT_STRAIN_WEIGHT, {"y": 1e-50, "gamma": 1.1e-50, "p": 8.0}),
+    (rules.GROW_LOAD_FACTOR, {"x": 0.9999999949999999, "gamma": 1.3, "p": 0.7}),
+    (rules.GROW_LOAD_WEIGHT, {"x": 0.9999999949999999, "gamma": 1.3, "p": 0.7}),
+]
+
+
+@pytest.mark.parametrize(("rule", "values"), EDGES)
+def test_rule_lowers_the_error(rule: Rule, values: dict[str, float]) -> None:
+    """Where ``why`` says that the left side fails it does, and the right side holds."""
+    before, after = rule.pairs[0]
+    with mpmath.workdps(60):
+        exact = {name: mpmath.mpf(value) for name, value in values.items()}
+        if "x" in values:  # the right side takes Q; give both the same point
+            values = {**values, "q": values["x"] ** 2}
+            exact["x"] = mpmath.sqrt(mpmath.mpf(values["q"]))
+        symbols = sorted(before.free_symbols, key=str)
+        truth = sp.lambdify(symbols, before, "mpmath")(*(exact[s.name] for s in symbols))
+        left = ulps(in_doubles(before, values), truth)
+        right = ulps(in_doubles(unfolded(rule, after), values), truth)
+    assert right < 8
+    assert left > 100 * max(right, 1)
+
+
+@pytest.mark.parametrize("rule", [rules.COMPLETE_DUAL_FORM, rules.COMPLETE_FORM])
+def test_squares_hold_at_the_chiral_edge(rule: Rule) -> None:
+    """iota -> beta eta along the soft (stiff) direction; the constants are rounded once."""
+    before, after = rule.pairs[0]
+    beta, eta = 1.1, 1.6
+    values = {"alpha": 0.7, "beta": beta, "zeta": 0.9, "eta": eta}
+    values |= {"iota": beta * eta * (1 - 1e-12), "u1": 0.0, "u2": 0.0, "v1": 0.0, "v2": 0.0}
+    values |= {"m1": 0.0, "m2": 0.0, "n1": 0.0, "n2": 0.0}
+    values |= {"u3": 0.3 / beta, "stretch": -0.3 / eta, "m3": 0.3 * beta, "n3": 0.7}
+    with mpmath.workdps(60):
+        exact = {name: mpmath.mpf(value) for name, value in values.items()}
+        symbols = sorted(before.free_symbols, key=str)
+        truth = sp.lambdify(symbols, before, "mpmath")(*(exact[s.name] for s in symbols))
+        for a in rule.constants:
+            names = sorted(a.expr.free_symbols, key=str)
+            values[a.name] = float(
+                sp.lambdify(names, a.expr, "mpmath")(*(exact[s.name] for s in names))
+            )
+    names = [
+        a.name for a in order(Kernel("k", (), rule.definitions, (Output("w", (), after),))).body
+    ]
+    for name in names:
+        (a,) = (a for a in rule.definitions if a.name == name)
+        values[name] = in_doubles(a.expr, values)
+    left, right = ulps(in_doubles(before, values), truth), ulps(in_doubles(after, values), truth)
+    assert right < left / 100
