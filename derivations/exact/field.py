@@ -86,6 +86,7 @@ class Field:
         self._meaning: list[sp.Expr] = []
         self._reductions: dict[int, tuple[int, Poly]] = {}  # gen**k = polynomial
         self._positive_slots: set[int] = set()
+        self._nonnegative_slots: set[int] = set()  # |x| and its powers, which may vanish
         self._positive_factors: set[str] = set()
         self._cache: dict[sp.Expr, Fraction] = {}
         for fact in positive:
@@ -206,7 +207,8 @@ class Field:
         return slot
 
     def _absolute(self, expr: sp.Abs) -> Fraction:
-        slot = self._slot(expr, positive=True)
+        slot = self._slot(expr, positive=bool(expr.is_positive))
+        self._nonnegative_slots.add(slot)
         square = self.fraction(expr.args[0]).power(2)
         if square.den.is_one() and slot not in self._reductions:
             self._reductions[slot] = (2, square.num)
@@ -289,7 +291,9 @@ class Field:
             halves = 2 * number
             if not halves.is_Integer:
                 raise OutOfReach(f"the exponent {term} is not a half-integer multiple of {unit}")
-            slot = self._slot((base, unit / 2), positive=True)
+            slot = self._slot((base, unit / 2), positive=not isinstance(base, sp.Abs))
+            if isinstance(base, sp.Abs):
+                self._nonnegative_slots.add(slot)
             self._powers[slot] = _Power(base, unit / 2)
             self._meaning[slot] = sp.Pow(base, unit / 2, evaluate=False)
             result *= self._of(slot).power(int(halves))
@@ -324,18 +328,17 @@ class Field:
         if str(-factor) in self._positive_factors:
             return -1
         used = {i for i, d in enumerate(factor.degrees()) if d}
-        if not all(
-            i in self._positive_slots or all(m[i] % 2 == 0 for m in factor.monoms()) for i in used
-        ):
+        signed = used - self._positive_slots - self._nonnegative_slots
+        if any(m[i] % 2 for m in factor.monoms() for i in signed):
             return None
-        coefficients = list(factor.coeffs())
-        # A sum of even powers alone could vanish together with its variables: ask for a term
-        # without them, or for positive variables only.
+        # A sum of terms that are never negative could still vanish with its variables: one term
+        # must be free of those that may be zero.
         strictly = any(
             all(m[i] == 0 or i in self._positive_slots for i in used) for m in factor.monoms()
         )
         if not strictly:
             return None
+        coefficients = list(factor.coeffs())
         if all(c > 0 for c in coefficients):
             return 1
         return -1 if all(c < 0 for c in coefficients) else None
