@@ -25,6 +25,7 @@ from rodproof.derivations.records import Confirmation, Decision, Evidence, State
 #: One module a section, in the order of the paper.
 SECTIONS: Mapping[str, str] = {
     "3.1": "section_3_1",
+    "3.4": "section_3_4",
 }
 
 #: A second route must agree to this many digits of the 50 it works with.

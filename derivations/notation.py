@@ -52,6 +52,29 @@ class Wstar(sp.Function):
         return _applied(printer, "W^*", self.args, exp)
 
 
+class FormQ(sp.Function):
+    """Q as a form, with no component shifted: `FormQ(a, b)` is Q(a, b + (0, 0, 1))."""
+
+    nargs = 2
+
+    def _latex(self, printer: object, exp: str | None = None) -> str:
+        a, b = (printer._print(x) for x in self.args)  # type: ignore[attr-defined]
+        whole = rf"Q({a}, {b} + (0, 0, 1)^T)"
+        return whole if exp is None else rf"{whole}^{{{exp}}}"
+
+
+class HessianForm(sp.Function):
+    """The quadratic form of D^2 W(u, v) at (a, b): `HessianForm(u, v, a, b)`."""
+
+    nargs = 4
+
+    def _latex(self, printer: object, exp: str | None = None) -> str:
+        u, v, a, b = (printer._print(x) for x in self.args)  # type: ignore[attr-defined]
+        column = rf"\begin{{bmatrix}} {a} \\ {b} \end{{bmatrix}}"
+        whole = rf"{column} \cdot D^2 W({u}, {v}) {column}"
+        return whole if exp is None else rf"\left({whole}\right)^{{{exp}}}"
+
+
 class Prime(sp.Function):
     """The derivative along the rod, `Prime(theta)`; printed as theta'."""
 
