@@ -116,8 +116,15 @@ def _constants(kernels: tuple[Kernel, ...]) -> str:
     hidden = "float = field(init=False, repr=False, compare=False)"
     fields = [f"    {name}: {hidden}" for name in derived]
     values = [f'            "{name}": {printer.text(expr)},' for name, expr in derived.items()]
+    used = {"beta", "eta", "iota"} | {
+        s.name for expr in derived.values() for s in expr.free_symbols
+    }
+    exact = [s.name for s in CONSTANTS if s.name in used]
     return template.CONSTANTS.substitute(
-        derived_fields="\n".join(fields), derived_values="\n".join(values)
+        derived_fields="\n".join(fields),
+        derived_values="\n".join(values),
+        exact=", ".join(exact),
+        given=", ".join(f"self.{name}" for name in exact),
     )
 
 
@@ -153,7 +160,8 @@ def _used_outside(kernel: Kernel, step: str) -> set[str]:
 def _step_text(step: Step, printer: Printer) -> str:
     """A step as a private function that returns a tuple, its last result being the square."""
     taken = f"{_rows(step.inputs)}: Rows" if step.rows else f"{step.inputs[0]}: Array"
-    lines = [f"def _{step.name}({taken}, c: Constants) -> Rows:"]
+    single = len(step.results) == 1 and not step.rows
+    lines = [f"def _{step.name}({taken}, c: Constants) -> {'Array' if single else 'Rows'}:"]
     lines += [f'{INDENT}"""{STEP_TEXTS[step.name]}"""']
     if step.rows:
         lines += [f"{INDENT}{', '.join(step.inputs)} = {_rows(step.inputs)}"]
@@ -161,7 +169,9 @@ def _step_text(step: Step, printer: Printer) -> str:
     for limit in sorted({"tiny", "log_max"} & used):
         lines += [f"{INDENT}{limit} = {limit.upper()}[{step.inputs[0]}.dtype]"]
     lines += [line for a in step.body for line in _assign(a, printer)]
-    lines += [f"{INDENT}return {', '.join(step.results)}"]
+    one_row = step.rows and len(step.results) == 1
+    results = f"({step.results[0]},)" if one_row else ", ".join(step.results)
+    lines += [f"{INDENT}return {results}"]
     return "\n".join(lines)
 
 
@@ -186,7 +196,8 @@ def _call(step: Step, kernel: Kernel) -> list[str]:
     names = [name if name in needed else "_" for name in step.results]
     given = _rows(step.inputs) if step.rows else step.inputs[0]
     if not gauge:
-        left = ", ".join(names) if set(names[:-1]) != {"_"} else f"*_, {names[-1]}"
+        left = f"*_, {names[-1]}" if set(names[:-1]) == {"_"} else ", ".join(names)
+        left = f"({left},)" if step.rows and len(names) == 1 else left
         lines = [f"{left} = _{step.name}({given}, c)"]
         if kernel.limit and kernel.limit.quantity in step.results:  # the guard answers for these
             lines = ['with np.errstate(over="ignore", invalid="ignore"):', INDENT + lines[0]]
@@ -194,7 +205,7 @@ def _call(step: Step, kernel: Kernel) -> list[str]:
         values = names[:-1]
         radii = [n if n in needed else "_" for n in (gauge.norm, gauge.radius, gauge.square)]
         call = f"{', '.join(radii)} = _balanced(_{step.name}, {given}, c)"
-        if set(values) == {"_"}:
+        if set(values) <= {"_"}:
             lines = [f"_, {call}"]
         else:
             lines = [f"values, {call}", f"{', '.join(values)} = values"]

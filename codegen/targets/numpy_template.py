@@ -56,8 +56,8 @@ $derived_fields
                 rule = "a finite number" if name == "iota" else "positive and finite"
                 raise ValueError(f"Constants: {name} must be {rule}, not {value}")
             object.__setattr__(self, name, value)
-        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota))
-        alpha, beta, zeta, eta, iota = exact
+        exact = (Fraction(v) for v in ($given))
+        $exact = exact
         if not beta**2 * eta**2 - iota**2 > 0:
             raise ValueError(
                 "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"

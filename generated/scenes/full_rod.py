@@ -7,8 +7,9 @@ refuted; const-u-mu eq:uconst proved; const-u-3 eq:u3const proved; const-v-mu eq
 const-v-3 eq:v3const proved; q-form eq:quadraticform definition; strain-limit eq:strainlimiting
 proved; const-m-mu eq:mconst proved; const-m-3 eq:m3const proved; const-n-mu eq:nconst proved;
 const-n-3 eq:n3const proved; w-definition eq:stenergy proved; wstar-definition eq:compenergy
-proved; hess-m-u; hess-m-u3; hess-m-v; hess-m-v3; hess-m3-u3; hess-m3-v; hess-m3-v3; hess-n-v;
-hess-n-v3; hess-n3-v3; wstar-gradient Section 3.1 proved.
+proved; hess-m-u reading; hess-m-u3 reading; hess-m-v reading; hess-m-v3 reading; hess-m3-u3
+refuted; hess-m3-v reading; hess-m3-v3 refuted; hess-n-v reading; hess-n-v3 reading; hess-n3-v3
+reading; wstar-gradient Section 3.1 proved.
 
 Domain: all finite loads; strains with Q(u, v) < 1, and an error at and past that limit.
 

@@ -7,6 +7,7 @@ import math
 import os
 import subprocess
 import sys
+import types
 import warnings
 from pathlib import Path
 
@@ -196,18 +197,31 @@ def test_past_the_limit(function: str, bad: float) -> None:
     assert "the first at index (2, 3) with Q = " in sentence
 
 
-def test_policy_nan() -> None:
-    text = generate.render(
-        Scene("soft_limit", functions=("loads", "stored_energy"), at_limit="nan")
-    )
-    names: dict = {"__name__": "soft_limit"}
-    module = type(sys)("soft_limit")
-    sys.modules["soft_limit"] = module
+def module_of(own: Scene) -> dict:
+    """The names of a scene's module; dataclass wants it among the modules while it loads."""
+    module = types.ModuleType(own.name)
+    sys.modules[own.name] = module
     try:
-        exec(text, module.__dict__)
+        exec(generate.render(own), module.__dict__)
     finally:
-        del sys.modules["soft_limit"]
-    names = module.__dict__
+        del sys.modules[own.name]
+    return module.__dict__
+
+
+@pytest.mark.parametrize("function", HEADS)
+def test_scene_of_one_function_gives_the_same_numbers(function: str) -> None:
+    own = module_of(Scene("one", functions=(function,)))
+    a, b = arrays(function, (7,), (7,), np.float64)
+    got = own[function](a, b, own["Constants"](**GOOD))
+    want = getattr(rod, function)(a, b, C)
+    assert np.array_equal(np.stack(got), np.stack(want))
+    assert [name for name in HEADS if name in own] == [function]
+    assert ("_work_share" in own) == function.endswith("energy")
+    assert ("_within_limit" in own) == (function not in OF_LOADS)
+
+
+def test_policy_nan() -> None:
+    names = module_of(Scene("soft", functions=("loads", "stored_energy"), at_limit="nan"))
     c = names["Constants"](**GOOD)
     u = np.array([[9.0, 0.1], [0, 0], [0, 0]])
     with np.errstate(all="raise", under="ignore"):
