@@ -89,6 +89,7 @@ class Field:
         self._nonnegative_slots: set[int] = set()  # |x| and its powers, which may vanish
         self._positive_factors: set[str] = set()
         self._cache: dict[sp.Expr, Fraction] = {}
+        self._angles: list[sp.Expr] = []
         for fact in positive:
             self.assume_positive(fact)
 
@@ -221,6 +222,13 @@ class Field:
             return self.fraction(sp.expand_trig(expr.func(sp.Add(*terms))))
         if not isinstance(expr, sp.sin | sp.cos):
             return self.fraction(_by_sin_and_cos(expr))
+        for known in self._angles:  # the same angle in another form, or its opposite
+            if angle != known and self.equal(angle, known):
+                return self.fraction(expr.func(known))
+            if angle != -known and self.equal(angle, -known):
+                return self.fraction(expr.func(-known))
+        if angle not in self._angles:
+            self._angles.append(angle)
         slot = self._slot(expr, positive=bool(expr.is_positive))
         if isinstance(expr, sp.sin) and slot not in self._reductions:
             cosine = self.fraction(sp.cos(angle))
