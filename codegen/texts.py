@@ -90,7 +90,11 @@ TEXTS = {
     "compliance": FunctionText(
         ("m", "n"),
         {"soft": (6, 6)},
-        "D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y, its diagonal as sums of squares.",
+        """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y.
+
+    With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
+    the entries that would cancel are sums of squares.
+    """,
         f"""Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
 
     {_LOADS_IN}

@@ -25,5 +25,5 @@ def _name(old: str, expr: sp.Expr) -> str:
     if expr in NAMES:
         return NAMES[expr]
     if isinstance(expr, sp.Pow) and expr.exp == 2 and expr.base.is_Symbol:
-        return f"{expr.base}_square"
+        return f"{expr.base.name[0]}{expr.base}"  # aa1 for the square of a1
     return old

@@ -67,6 +67,8 @@ $derived_fields
 $derived_values
         }
         for name, ratio in derived.items():  # exact, then rounded once
+            if abs(ratio) >= 2**1023:
+                raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
             object.__setattr__(self, name, float(ratio))
 ''')
 

@@ -96,6 +96,8 @@ class Constants:
             "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
         }
         for name, ratio in derived.items():  # exact, then rounded once
+            if abs(ratio) >= 2**1023:
+                raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
             object.__setattr__(self, name, float(ratio))
 
     @cached_property
@@ -450,7 +452,11 @@ def stiffness(u: ArrayLike, v: ArrayLike, constants: Constants, out: Array | Non
 
 
 def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
-    """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y, its diagonal as sums of squares."""
+    """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y.
+
+    With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
+    the entries that would cancel are sums of squares.
+    """
     values, size, y, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3 = values
     _, power, factor = _soften(y, c)
@@ -458,21 +464,21 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     per_size = 1 / size
     tiny = TINY[y.dtype]
     a1 = per_size * (mu_1 + tiny)
-    a1_square = a1**2
+    aa1 = a1**2
     a2 = mu_2 * per_size
-    a2_square = a2**2
+    aa2 = a2**2
     a3 = mu_3 * per_size
-    a3_square = a3**2
+    aa3 = a3**2
     b1 = nu_1 * per_size
-    b1_square = b1**2
+    bb1 = b1**2
     b2 = nu_2 * per_size
-    b2_square = b2**2
+    bb2 = b2**2
     b3 = nu_3 * per_size
     c3 = per_size * twist
     c6 = dilatation * per_size
-    c6_square = c6**2
-    across = a1_square + a2_square + b1_square + b2_square
-    coupled = a3_square + c.gap * c6_square
+    cc6 = c6**2
+    across = aa1 + aa2 + bb1 + bb2
+    coupled = aa3 + c.gap * cc6
     share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
     steep = -factor * share
     d = np.empty((6, y.size), y.dtype)
@@ -484,23 +490,15 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     np.multiply(c.per_eta, c6, out=d[5])
     for i in range(6):
         np.multiply(steep * d[i], d[i:], out=soft[i, i:])
-    soft[0, 0] = c.per_alpha**2 * factor * (
-        a1_square * remain + a2_square + b1_square + b2_square + coupled
-    )
-    soft[1, 1] = c.per_alpha**2 * factor * (
-        a1_square + a2_square * remain + b1_square + b2_square + coupled
-    )
+    np.multiply(c.per_alpha**2 * factor, aa1 * remain + aa2 + bb1 + bb2 + coupled, out=soft[0, 0])
+    np.multiply(c.per_alpha**2 * factor, aa1 + aa2 * remain + bb1 + bb2 + coupled, out=soft[1, 1])
     soft[2, 2] = c.per_beta**2 * factor * (c3**2 * remain + c.per_gap * (across + b3**2))
     soft[2, 5] = c.per_beta * c.per_eta * factor * (
         c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across)
     )
-    soft[3, 3] = c.per_zeta**2 * factor * (
-        a1_square + a2_square + b1_square * remain + b2_square + coupled
-    )
-    soft[4, 4] = c.per_zeta**2 * factor * (
-        a1_square + a2_square + b1_square + b2_square * remain + coupled
-    )
-    soft[5, 5] = c.per_eta**2 * factor * (c6_square * remain + c.per_gap * (a3_square + across))
+    np.multiply(c.per_zeta**2 * factor, aa1 + aa2 + bb1 * remain + bb2 + coupled, out=soft[3, 3])
+    np.multiply(c.per_zeta**2 * factor, aa1 + aa2 + bb1 + bb2 * remain + coupled, out=soft[4, 4])
+    np.multiply(c.per_eta**2 * factor, cc6 * remain + c.per_gap * (aa3 + across), out=soft[5, 5])
     for i in range(1, 6):
         soft[i, :i] = soft[:i, i]
 

@@ -159,6 +159,7 @@ def test_integers_lists_and_mixed_types() -> None:
         ({"gamma": math.nan}, "gamma must be positive and finite, not nan"),
         ({"zeta": math.inf}, "zeta must be positive and finite, not inf"),
         ({"iota": math.nan}, "iota must be a finite number, not nan"),
+        ({"alpha": 1e-310}, "per_alpha leaves the range of floating point numbers"),
     ],
 )
 def test_constants_are_checked(changed: dict, sentence: str) -> None:
