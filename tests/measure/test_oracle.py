@@ -131,3 +131,12 @@ def test_answers_are_certain_where_all_cancels() -> None:
     load = oracle.certain(oracle.loads, near, [arb(1 - 1e-14), *[arb(0)] * 5])
     assert load[0].rel_accuracy_bits() >= oracle.ACCURACY
     assert load[0] > 1e40
+
+
+def test_a_component_that_all_but_vanishes_stops_nothing() -> None:
+    """With one load alone and p = 1000 its own compliance is 1e-18000 of the others."""
+    sharp = oracle.Constants(*map(arb, (1.0, 1.0, 1.0, 1.0, 0.0, 1e-18, 1000.0)))
+    compliance = oracle.certain(oracle.compliance, sharp, [arb(1.0), *[arb(0)] * 5])
+    with ctx.workprec(400):
+        assert abs(compliance[0]) < arb(2) ** -oracle.ACCURACY
+        assert abs(compliance[7] - 1) < arb(2) ** -oracle.ACCURACY
