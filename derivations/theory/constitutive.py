@@ -51,8 +51,8 @@ def stiffness_at_rest() -> sp.ImmutableMatrix:
 
 @cache
 def compliance_at_rest() -> sp.ImmutableMatrix:
-    """K^{-1}, by inversion of the 2x2 block that couples twist and dilatation."""
-    return sp.ImmutableMatrix(stiffness_at_rest().inv(method="ADJ").applyfunc(sp.cancel))
+    """K^{-1}, by elimination in the field of rational functions of the constants."""
+    return sp.ImmutableMatrix(stiffness_at_rest().to_DM().to_field().inv().to_Matrix())
 
 
 @cache
