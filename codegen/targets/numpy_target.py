@@ -83,7 +83,7 @@ def header(scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str
         "",
         *textwrap.wrap(f"Statements it rests on ({noted}): {cited}.", 98, break_on_hyphens=False),
         "",
-        f"Domain: all finite loads; strains with Q(u, v) < 1, and {answer} at and past that limit.",
+        f"Domain: loads with finite Q*(m, n)^(1/2); strains with Q(u, v) < 1, else {answer}.",
         "",
         "Operations a point: arithmetic, transcendental, energy shares, temporaries",
     ]

@@ -130,6 +130,12 @@ def _work_share(depth: Array, c: Constants) -> Array:
 '''
 
 BALANCED = '''\
+def _exponent(rows: Rows) -> Array:
+    """The power of two above the largest magnitude in each column."""
+    largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
+    return np.frexp(largest)[1]
+
+
 def _balanced(
     form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Array, Array]:
@@ -144,7 +150,9 @@ def _balanced(
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
             size = np.sqrt(square)
             return values, size, size, square
-        power = np.frexp(np.maximum.reduce([np.abs(row) for row in (*inputs, *values)]))[1]
+        power = _exponent(inputs)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        power = power + _exponent(values)
         *values, square = form([np.ldexp(row, -power) for row in inputs], c)
         size = np.sqrt(square)
         radius = np.ldexp(size, power)

@@ -11,7 +11,7 @@ proved; hess-m-u reading; hess-m-u3 reading; hess-m-v reading; hess-m-v3 reading
 refuted; hess-m3-v reading; hess-m3-v3 refuted; hess-n-v reading; hess-n-v3 reading; hess-n3-v3
 reading; wstar-gradient Section 3.1 proved.
 
-Domain: all finite loads; strains with Q(u, v) < 1, and an error at and past that limit.
+Domain: loads with finite Q*(m, n)^(1/2); strains with Q(u, v) < 1, else an error.
 
 Operations a point: arithmetic, transcendental, energy shares, temporaries
     strains                50    4    0   17
@@ -175,6 +175,12 @@ def _stiffen(q: Array, c: Constants) -> Rows:
     return growth, depth, factor
 
 
+def _exponent(rows: Rows) -> Array:
+    """The power of two above the largest magnitude in each column."""
+    largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
+    return np.frexp(largest)[1]
+
+
 def _balanced(
     form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Array, Array]:
@@ -189,7 +195,9 @@ def _balanced(
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
             size = np.sqrt(square)
             return values, size, size, square
-        power = np.frexp(np.maximum.reduce([np.abs(row) for row in (*inputs, *values)]))[1]
+        power = _exponent(inputs)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        power = power + _exponent(values)
         *values, square = form([np.ldexp(row, -power) for row in inputs], c)
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
@@ -329,7 +337,7 @@ def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
 def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
     """Strains u, v (3, ...) under the contact couple m and force n (eq:uconst to eq:v3const).
 
-    m (3, ...) in force times length and n (3, ...) in force, any finite values.
+    m (3, ...) in force times length and n (3, ...) in force, any with Q*(m, n)^(1/2) finite.
     u comes in 1/length, v is plain; at rest u = 0, v = (0, 0, 1).
     """
     u, v = _apply(_strains, {"m": m, "n": n}, constants, {"u": (3,), "v": (3,)}, out)
@@ -400,7 +408,7 @@ def complementary_energy(
 ) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
-    m (3, ...) in force times length and n (3, ...) in force, any finite values.
+    m (3, ...) in force times length and n (3, ...) in force, any with Q*(m, n)^(1/2) finite.
     """
     (w_star,) = _apply(_complementary_energy, {"m": m, "n": n}, constants, {"w_star": ()}, out)
     return w_star
@@ -506,7 +514,7 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
 def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
 
-    m (3, ...) in force times length and n (3, ...) in force, any finite values.
+    m (3, ...) in force times length and n (3, ...) in force, any with Q*(m, n)^(1/2) finite.
     Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
     """
     (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, {"soft": (6, 6)}, out)
