@@ -24,7 +24,12 @@ from rodproof.derivations.records import Confirmation, Decision, Evidence, State
 
 #: One module a section, in the order of the paper.
 SECTIONS: Mapping[str, str] = {
+    "1": "section_1",
+    "2.1": "section_2_1",
+    "2.2": "section_2_2",
     "3.1": "section_3_1",
+    "3.2": "section_3_2",
+    "3.3": "section_3_3",
     "3.4": "section_3_4",
 }
 
