@@ -40,7 +40,7 @@ class FunctionText:
     doc: str
 
 
-_LOADS_IN = "m (3, ...) in force times length and n (3, ...) in force, any with Q*(m, n)^(1/2) finite."
+_LOADS_IN = "m (3, ...) in force times length, n (3, ...) in force, with Q*(m, n)^(1/2) finite."
 _STRAINS_IN = "u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1 (eq:strainlimiting)."
 
 TEXTS = {

@@ -337,7 +337,7 @@ def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
 def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
     """Strains u, v (3, ...) under the contact couple m and force n (eq:uconst to eq:v3const).
 
-    m (3, ...) in force times length and n (3, ...) in force, any with Q*(m, n)^(1/2) finite.
+    m (3, ...) in force times length, n (3, ...) in force, with Q*(m, n)^(1/2) finite.
     u comes in 1/length, v is plain; at rest u = 0, v = (0, 0, 1).
     """
     u, v = _apply(_strains, {"m": m, "n": n}, constants, {"u": (3,), "v": (3,)}, out)
@@ -408,7 +408,7 @@ def complementary_energy(
 ) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
-    m (3, ...) in force times length and n (3, ...) in force, any with Q*(m, n)^(1/2) finite.
+    m (3, ...) in force times length, n (3, ...) in force, with Q*(m, n)^(1/2) finite.
     """
     (w_star,) = _apply(_complementary_energy, {"m": m, "n": n}, constants, {"w_star": ()}, out)
     return w_star
@@ -514,7 +514,7 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
 def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
 
-    m (3, ...) in force times length and n (3, ...) in force, any with Q*(m, n)^(1/2) finite.
+    m (3, ...) in force times length, n (3, ...) in force, with Q*(m, n)^(1/2) finite.
     Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
     """
     (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, {"soft": (6, 6)}, out)
