@@ -31,6 +31,7 @@ SECTIONS: Mapping[str, str] = {
     "3.2": "section_3_2",
     "3.3": "section_3_3",
     "3.4": "section_3_4",
+    "4.3": "section_4_3",
 }
 
 #: A second route must agree to this many digits of the 50 it works with.
