@@ -31,6 +31,8 @@ SECTIONS: Mapping[str, str] = {
     "3.2": "section_3_2",
     "3.3": "section_3_3",
     "3.4": "section_3_4",
+    "4": "section_4",
+    "4.1": "section_4_1",
     "4.3": "section_4_3",
 }
 

@@ -27,6 +27,7 @@ from rodproof.derivations.notation import (
 )
 from rodproof.derivations.proof import monotonicity as rules
 from rodproof.derivations.proof.tangents import UNIT_STRAINS, a, b
+from rodproof.derivations.proof.units import Units
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 from rodproof.derivations.theory.dimensions import length
@@ -72,7 +73,7 @@ def _units() -> Statement:
         id="nondimensionalization", section=SECTION, label="-", introduces=True,
         claim="Length and force scales of the remainder of the paper: the rod's length and gamma.",
         latex=r"L = 1, \quad \gamma = 1",
-        printed=Every(equal(length, 1), equal(gamma, 1)), check=rules.Units(),
+        printed=Every(equal(length, 1), equal(gamma, 1)), check=Units(),
         note="A length and a force are free to choose, and the law in these units is the law with "
         "gamma = 1; alpha, beta, iota become alpha/L, beta/L, iota/L. Six numbers are left "
         "(alpha, beta, zeta, eta, iota, p) besides the loads.",
@@ -297,9 +298,7 @@ def _quadratic_form() -> tuple[Statement, ...]:
     )
 
     def definite(form: sp.Expr) -> Implies:
-        return Implies(
-            chain(Q(u, v), "<", 1), PositiveDefinite(_right_side(form), sp.Tuple(a, b))
-        )
+        return Implies(chain(Q(u, v), "<", 1), PositiveDefinite(_right_side(form), sp.Tuple(a, b)))
 
     return (
         Statement(

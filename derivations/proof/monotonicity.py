@@ -1,4 +1,4 @@
-"""The checks of Section 3.4: tangents, their value at rest, definiteness, monotonicity, units."""
+"""The checks of Section 3.4: tangents, their value at rest, definiteness, monotonicity."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from rodproof.derivations.proof.tangents import (
 )
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import LOADS, STRAINS, chiral_gap, gamma, iota, p
-from rodproof.derivations.theory import constitutive, dimensions
+from rodproof.derivations.theory import constitutive
 from rodproof.derivations.theory import monotonicity as theory
 
 _REJECTED = Decision(False, False, "rejected")
@@ -108,9 +108,7 @@ def rest_is_uniform() -> bool:
     """K_ii Q - (K eps)_i^2 >= 0 for every i: the second term of the tangent is O(Q^{p/2})."""
     K = constitutive.stiffness_at_rest()
     facts = Field((chiral_gap,))
-    return all(
-        _semidefinite(sp.Matrix(K[i, i] * K - K[:, i] * K[i, :]), facts) for i in range(6)
-    )
+    return all(_semidefinite(sp.Matrix(K[i, i] * K - K[:, i] * K[i, :]), facts) for i in range(6))
 
 
 # -- definiteness --------------------------------------------------------------------------------
@@ -348,55 +346,6 @@ def _two_states() -> Counterexample:
         ("m1^A", "3/4"), ("n1^A", "0"), ("m1^B", "1"), ("n1^B", "7/4"), ("other loads", "0"),
     )  # fmt: skip
     return Counterexample(where, f"u1^A = {before}", f"u1^B = {after}")
-
-
-# -- units ---------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class Units:
-    """Two quantities may be set to 1 by the choice of units.
-
-    They must have independent dimensions in length and force, so that a unit of each exists, and
-    the law must not notice: with every quantity divided by its unit the strains scale as they must.
-    """
-
-    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
-        chosen = []
-        for claim in claims(printed):
-            if not isinstance(claim, Chain) or claim.relations != ("=",):
-                return _REJECTED
-            scale, value = claim.sides
-            if value != 1 or not isinstance(scale, sp.Symbol):
-                return _REJECTED
-            chosen.append(scale)
-        dims = sp.Matrix([dimensions.dimension(scale) for scale in chosen])
-        if dims.shape != (2, 2) or dims.det() == 0 or not _law_scales():
-            return _REJECTED
-        if dims != sp.eye(2):
-            return _REJECTED  # the claim names a length and a force, in this order
-        return Decision(True, True, "independent dimensions, and the law in these units is the law")
-
-    def confirm(self, printed: sp.Basic) -> Confirmation | None:
-        return None
-
-
-@cache
-def _law_scales() -> bool:
-    """strains(loads/units; constants/units) = strains/units with units (L, gamma), exactly."""
-    length, force = dimensions.length, gamma
-
-    def scaled(symbol: sp.Symbol) -> sp.Expr:
-        powers = dimensions.dimension(symbol)
-        return symbol / length ** powers[0] / force ** powers[1]
-
-    quantities = (*LOADS, *(c for c in dimensions.of_constants()))
-    facts = Field((chiral_gap, constitutive.dual_form()))
-    at = {s: scaled(s) for s in quantities}
-    return all(
-        facts.equal(law.subs(at, simultaneous=True), law * scaled(strain) / strain)
-        for law, strain in zip(constitutive.strains(), STRAINS, strict=True)
-    )
 
 
 ENTRIES = TangentIdentity(replace(UNIT_STRAINS, simple=simple_strains))

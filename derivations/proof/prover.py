@@ -88,6 +88,7 @@ def _links(claim: sp.Basic) -> Iterator[tuple[sp.Expr, str, sp.Expr]]:
         yield from claim.links()
 
 
+@cache  # a mutant differs from its original in one claim of many
 def _decide_claim(claim: sp.Basic, meaning: Meaning, explain: bool) -> Decision:
     if isinstance(claim, Chain):
         return _decide_chain(claim, meaning, explain)

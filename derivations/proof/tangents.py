@@ -200,9 +200,7 @@ UNIT_STRAINS = Meaning(
     functions={
         Q: _form_at(constitutive.quadratic_form(), STRAINS),
         FormQ: _form_at(theory.rest_form(), theory.DIRECTION),
-        HessianForm: _form_at(
-            theory.form_of(theory.hessian()), (*STRAINS, *theory.DIRECTION)
-        ),
+        HessianForm: _form_at(theory.form_of(theory.hessian()), (*STRAINS, *theory.DIRECTION)),
         W: _form_at(constitutive.stored_energy().subs(gamma, 1), STRAINS),
     },
     positive=tuple(fact.subs(gamma, 1) for fact in ON_STRAINS.positive),

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
+from typing import TypeAlias
 
 import sympy as sp
 
@@ -30,7 +31,7 @@ from rodproof.derivations.theory.constitutive import (
 )
 from rodproof.derivations.theory.frames import dot, euler_frame, phi, psi, rotation_about, theta
 
-Vector = sp.ImmutableMatrix
+Vector: TypeAlias = sp.ImmutableMatrix
 Components = tuple[sp.Expr, sp.Expr, sp.Expr]
 
 N = sp.Symbol("N", real=True)  # the force is N g_3; tension for N cos(theta) > 0
@@ -80,11 +81,15 @@ def reduce_squares(expr: sp.Expr) -> sp.Expr:
 
     A normal form: two such polynomials agree for all angles exactly if they reduce to the same.
     """
-    sines = [sp.sin(angle) for angle in ANGLES]
-    relations = [sp.sin(angle) ** 2 + sp.cos(angle) ** 2 - 1 for angle in ANGLES]
-    cosines = [sp.cos(angle) for angle in ANGLES]
-    _, rest = sp.reduced(sp.expand(expr), relations, *sines, *cosines, order="lex")
-    return sp.expand(rest)
+    pairs = [(sp.sin(angle), sp.cos(angle)) for angle in ANGLES]
+    generators = [function for pair in pairs for function in pair]
+    total = []
+    for powers, coefficient in sp.Poly(expr, *generators).terms():
+        factors = [coefficient]
+        for (sine, cosine), k, j in zip(pairs, powers[::2], powers[1::2], strict=True):
+            factors += [sine ** (k % 2), cosine**j, (1 - cosine**2) ** (k // 2)]
+        total.append(sp.Mul(*factors))
+    return sp.expand(sp.Add(*total))
 
 
 def in_frame(vector: Vector, frame: tuple[Vector, Vector, Vector]) -> Components:
@@ -231,9 +236,7 @@ def couple_balance() -> Components:
     In the symbols v, v_3 and the rates; the e_k turn with s and are differentiated with M_k.
     """
     m = from_components(COUPLE, intermediate_frame())
-    return in_frame(
-        Vector(along_vector(m) + tangent().cross(N * G3)), intermediate_frame()
-    )
+    return in_frame(Vector(along_vector(m) + tangent().cross(N * G3)), intermediate_frame())
 
 
 @cache
@@ -262,3 +265,48 @@ def reduced_system() -> tuple[sp.Expr, ...]:
     Three of kinematics and law, three of balance. `reduced_law` says what u, v, u_3, v_3 are.
     """
     return (*law_in_frame(), *couple_balance())
+
+
+@cache
+def force_along_rod() -> Components:
+    """n(s) . g_k from n' = 0 and n(1) = N g_3: the end value less the integral of n' over [s, 1].
+
+    Without body force the balance of forces reads n' = -f = 0, so nothing is taken off.
+    """
+    s, f = sp.Symbol("s", real=True), sp.Integer(0)
+    t = sp.Dummy("t", real=True)
+    a, b, c = (end - sp.integrate(-f, (t, s, 1)) for end in N * G3)
+    return a, b, c
+
+
+@cache
+def couple_rates() -> Mapping[sp.Symbol, sp.Expr]:
+    """M_1', M_2', M_3' from the balance of couples, in the rates of the angles."""
+    return {
+        rate: rate - balance
+        for rate, balance in zip((M1_s, M2_s, M3_s), couple_balance(), strict=True)
+    }
+
+
+@cache
+def determinant() -> sp.Expr:
+    """How the six equations fix the six rates: the determinant of their coefficients.
+
+    Rows as in `reduced_system`, the first with its sign turned (sin(theta) phi' + u M_1).
+    """
+    rows = sp.Matrix(reduced_system()).jacobian(list(RATES.values()))
+    return reduce_squares(-rows.det(method="berkowitz"))
+
+
+@cache
+def load_rates() -> Mapping[sp.Symbol, sp.Expr]:
+    """m_k', n_k' in the directors: m' + r' x n = 0 and n' = 0 seen from the turning frame.
+
+    (c_k d_k)' = c_k' d_k + u x c, so m_k' = -(u x m + v x n)_k and n_k' = -(u x n)_k, with u, v
+    from the law with gamma = 1. For every force n, without angles.
+    """
+    strains = strains_from_loads()
+    u, v = sp.Matrix(strains[:3]), sp.Matrix(strains[3:])
+    m, n = sp.Matrix(LOADS[:3]), sp.Matrix(LOADS[3:])
+    rates = [*(-u.cross(m) - v.cross(n)), *(-u.cross(n))]
+    return dict(zip(LOADS, rates, strict=True))

@@ -81,9 +81,7 @@ def hessian_core() -> sp.ImmutableMatrix:
     """(1 - X) K + (X/Q) (K eps)(K eps)^T: K weighed by a positive number, and a square."""
     Q = quadratic_form()
     k = load_direction()
-    return sp.ImmutableMatrix(
-        (1 - Q ** (p / 2)) * stiffness_at_rest() + Q ** (p / 2 - 1) * k * k.T
-    )
+    return sp.ImmutableMatrix((1 - Q ** (p / 2)) * stiffness_at_rest() + Q ** (p / 2 - 1) * k * k.T)
 
 
 @cache
