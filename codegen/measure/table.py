@@ -22,8 +22,9 @@ def _preface(measurement: Measurement) -> str:
     return f"""# Error and run time of the scene full_rod
 
 Made by `rodproof report` from the stored measurement beside this page: {size} of the module
-whose SHA-256 begins with {asked.digest[:8]}, with seed {asked.seed}, {asked.batches * asked.points} points for each kind of input, times as the median
-of {asked.rounds} interleaved rounds. Machine: {machine.processor}, {machine.cores} cores,
+whose SHA-256 begins with {asked.digest[:8]}, with seed {asked.seed},
+{asked.batches * asked.points} points for each kind of input, times as the median of
+{asked.rounds} interleaved rounds. Machine: {machine.processor}, {machine.cores} cores,
 one thread, {machine.system}, Python {machine.python}, NumPy {machine.numpy}, SymPy {machine.sympy},
 mpmath {machine.mpmath}, python-flint {machine.flint}.
 

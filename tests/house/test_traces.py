@@ -10,7 +10,7 @@ from pathlib import Path
 TRACES = re.compile(
     rb"(?<![\w.])/(?:home|root|work|farm|Users|opt|mnt)/\w"
     rb"|index[-_][u]rl|find[-]links|/simple/?[\"' \n]"
-    rb"|(?:url|resolved|source)\"? *[=:] *.?https?://"
+    rb"|\b(?:url|resolved|source)\"? *[=:] *.?https?://"
 )
 TEXT = {".py", ".toml", ".lock", ".md", ".cff", ".yaml", ".json", ".tex", ".txt", ".svg", ""}
 
