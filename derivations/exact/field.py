@@ -104,13 +104,36 @@ class Field:
         return self.is_zero(sp.Add(left, -right, evaluate=False))
 
     def sign(self, expr: sp.Expr) -> int | None:
-        """+1, -1 or 0 if a factorisation into quantities of known sign proves it, else None."""
+        """+1, -1 or 0 if a factorisation into quantities of known sign proves it, else None.
+
+        Where the factors do not tell, the expression as written may: a product of factors or a
+        sum of terms whose signs are proved one by one.
+        """
         f = self.fraction(expr)
         num = self._reduce(f.num)
         if num.is_zero():
             return 0
         signs = self._sign_of_poly(num), self._sign_of_poly(f.den)
-        return None if None in signs else signs[0] * signs[1]  # type: ignore[operator]
+        if None in signs:
+            return self._sign_as_written(expr)
+        return signs[0] * signs[1]  # type: ignore[operator]
+
+    def _sign_as_written(self, expr: sp.Expr) -> int | None:
+        if isinstance(expr, sp.Pow) and expr.exp.is_Integer:
+            base = self.sign(expr.base)
+            return None if not base else base ** int(abs(expr.exp))
+        if isinstance(expr, sp.Mul):
+            product = 1
+            for arg in expr.args:
+                s = self.sign(arg)
+                if not s:
+                    return None
+                product *= s
+            return product
+        if isinstance(expr, sp.Add):
+            found = {self.sign(arg) for arg in expr.args} - {0}
+            return found.pop() if len(found) == 1 else None
+        return None
 
     def _sign_of_poly(self, poly: Poly) -> int | None:
         content, factors = poly.factor()
@@ -208,6 +231,9 @@ class Field:
         return slot
 
     def _absolute(self, expr: sp.Abs) -> Fraction:
+        known = self.sign(expr.args[0])
+        if known is not None:
+            return self.fraction(known * expr.args[0])
         slot = self._slot(expr, positive=bool(expr.is_positive))
         self._nonnegative_slots.add(slot)
         square = self.fraction(expr.args[0]).power(2)
