@@ -173,6 +173,13 @@ class Implies(sp.Basic):
         return rf"{a} \implies {b}"
 
 
+class Either(sp.Basic):
+    """At least one of the statements."""
+
+    def _latex(self, printer: object) -> str:
+        return r" \text{ or } ".join(printer._print(a) for a in self.args)  # type: ignore[attr-defined]
+
+
 class Iff(sp.Basic):
     """The statements are equivalent."""
 
