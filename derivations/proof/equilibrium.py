@@ -50,9 +50,10 @@ def strains_of(r: Curve, directors: Frame, s: Any, ctx: Any) -> tuple[Vector, Ve
     """The strains (u, v) in the directors, by numerical differentiation of r and the directors."""
     frame = [list(d) for d in directors(s)]
     tangent = slope(r, s, ctx)
+    rates = slope(lambda x: [c for d in directors(x) for c in d], s, ctx)
     darboux = [ctx.mpf(0)] * 3
     for k, director in enumerate(frame):
-        turned = cross(director, slope(lambda x, k=k: directors(x)[k], s, ctx))
+        turned = cross(director, rates[3 * k : 3 * k + 3])
         darboux = [a + b / 2 for a, b in zip(darboux, turned, strict=True)]
     return [dot(darboux, d, ctx) for d in frame], [dot(tangent, d, ctx) for d in frame]
 
@@ -106,11 +107,24 @@ def curve(
     expressions: Iterable[sp.Expr], parameter: sp.Symbol, values: Mapping[sp.Symbol, Any], ctx: Any
 ) -> Curve:
     """Expressions in `parameter` as a function of it, the other symbols held at `values`."""
-    todo = tuple(expressions)
+    constants: dict[sp.Symbol, Any] = {}
+    evaluate = Evaluator(ctx, values)
+
+    def fold(expr: sp.Expr) -> sp.Expr:
+        """What does not depend on the parameter is evaluated once."""
+        if expr == parameter or expr.is_Rational:
+            return expr
+        if expr.has(parameter):
+            return expr.func(*map(fold, expr.args))
+        known = sp.Dummy()
+        constants[known] = evaluate(expr)
+        return known
+
+    todo = tuple(fold(sp.sympify(e)) for e in expressions)
 
     def at(s: Any) -> Vector:
-        evaluate = Evaluator(ctx, {**values, parameter: s})
-        return [evaluate(sp.sympify(e)) for e in todo]
+        here = Evaluator(ctx, {**constants, parameter: s})
+        return [here(e) for e in todo]
 
     return at
 
