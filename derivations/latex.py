@@ -13,6 +13,9 @@ from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 
 _NAMES = {
     **{f"{a}{k}": f"{a}_{k}" for a in "uvmn" for k in (1, 2, 3)},
+    "m_vector": r"\boldsymbol{m}",
+    "n_vector": r"\boldsymbol{n}",
+    "n_s": r"\boldsymbol{n}(s)",
     "norm_T": r"|\boldsymbol{T}|",
     "Q_mirror": r"Q_{\mathrm{mirror}}",
     "K_inverse": "K^{-1}",
@@ -20,12 +23,23 @@ _NAMES = {
     "e^T": r"e^{\mathsf T}",
     "D2W": r"D^2 W",
     "D2Wstar": r"D^2 W^*",
+    "det_grad_chi": r"\det \nabla \boldsymbol{\chi}",
+    "theta_s": r"\theta_s",
+    "curvature": r"\kappa",
+    "torsion": r"\tau",
+    "m_vector": r"\boldsymbol{m}",
+    "n_vector": r"\boldsymbol{n}",
 }
+#: Vectors whose components stand in a transcription: `r_s[1]` is the first component of r'.
+_VECTORS = {
+    "r": "r", "r_s": "r'", "d1_": "d_1", "d2_": "d_2", "d3_": "d_3", "d3_s": "d_3'",
+    "m_g": "m", "n_s": "n'",
+}  # fmt: skip
 _FUNCTIONS = {"W_star": "W^*", "load": r"\hat y", "dim": r"\operatorname{dim}"}
 _STANDARD = frozenset(
     ("log", "hyper", "Abs", "sin", "cos", "tan", "cot", "csc", "acos", "asin", "atan", "exp")
 )
-_COLUMNS = frozenset("uvmn")
+_COLUMNS = frozenset("uvmnab")
 _CONSTANTS = (gamma, alpha, beta, zeta, eta, iota, p)
 
 
@@ -33,6 +47,10 @@ class _Printer(LatexPrinter):
     """Sans-serif columns, p/2 in exponents, real powers before fractions, gamma first."""
 
     def _print_Symbol(self, expr: sp.Symbol, style: str = "plain") -> str:
+        if expr.name.startswith("bold_"):
+            letter, _, at = expr.name.removeprefix("bold_").partition("_")
+            bold = rf"\boldsymbol{{{_letter(letter)}}}"
+            return f"{bold}({at})" if at else bold
         return _NAMES.get(expr.name) or str(super()._print_Symbol(expr))
 
     def _print_IndexedBase(self, expr: sp.IndexedBase) -> str:
@@ -41,7 +59,41 @@ class _Printer(LatexPrinter):
 
     def _print_Indexed(self, expr: sp.Indexed) -> str:
         indices = " ".join(self._print(i) for i in expr.indices)
-        return rf"{expr.base.label}_{{{indices}}}"
+        name = str(expr.base.label)
+        if name in _VECTORS:
+            letter, mark, _ = _VECTORS[name].partition("'")
+            stem, _, number = letter.partition("_")
+            bold = rf"\boldsymbol{{{stem}}}" + (f"_{number}" if number else "") + mark
+            return rf"({bold})_{{{indices}}}"
+        if name in ("d", "e", "g"):
+            return rf"\boldsymbol{{{name}}}_{{{indices}}}"
+        return rf"{name}_{{{indices}}}"
+
+    def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
+        """Plain numbers first if positive, then the order of SymPy with a positive term in front."""
+        terms = list(self._as_ordered_terms(expr, order=order))
+        terms.sort(key=lambda t: (t.could_extract_minus_sign(), not t.is_number))
+        text = self._print(terms[0])
+        for term in terms[1:]:
+            piece = self._print(term)
+            text += " " + (piece if piece.startswith("-") else "+ " + piece)
+        return str(text)
+
+    def _print_sin(self, expr: sp.Function, exp: str | None = None) -> str:
+        return self._of_angle(r"\sin", expr.args[0], exp)
+
+    def _print_cos(self, expr: sp.Function, exp: str | None = None) -> str:
+        return self._of_angle(r"\cos", expr.args[0], exp)
+
+    def _print_cot(self, expr: sp.Function, exp: str | None = None) -> str:
+        return self._of_angle(r"\cot", expr.args[0], exp)
+
+    def _of_angle(self, name: str, angle: sp.Expr, exp: str | None) -> str:
+        power = f"^{{{exp}}}" if exp else ""
+        inner = self._print(angle)
+        return (
+            rf"{name}{power} {inner}" if angle.is_Symbol else rf"{name}{power}\left({inner}\right)"
+        )
 
     def _print_Function(self, expr: sp.Function, exp: str | None = None) -> str:
         name = expr.func.__name__
@@ -99,6 +151,10 @@ class _Printer(LatexPrinter):
 
     def _print_Chain(self, chain: Chain) -> str:
         return str(chain._latex(self))
+
+
+def _letter(name: str) -> str:
+    return rf"\{name}" if len(name) > 1 else name
 
 
 def _is_heavy(factor: sp.Expr) -> bool:

@@ -25,6 +25,7 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
+from rodproof.derivations.printed import section_3_4_extras as extras
 from rodproof.derivations.proof import monotonicity as rules
 from rodproof.derivations.proof.tangents import UNIT_STRAINS, a, b
 from rodproof.derivations.proof.units import Units
@@ -64,7 +65,7 @@ def statements() -> tuple[Statement, ...]:
         *_of_twist(),
         *_of_forces(),
         *_quadratic_form(),
-        _bounds(),
+        *extras.statements(),
     )
 
 
@@ -325,24 +326,4 @@ def _quadratic_form() -> tuple[Statement, ...]:
             "u_3 = 0, v_3 = 1 the whole right-hand side is then zero. At zero strain the second "
             "term means its limit 0.",
         ),
-    )  # fmt: skip
-
-
-def _bounds() -> Statement:
-    secant = (1 - _X) ** (-1 / p)
-    return Statement(
-        id="extra-hessian-bounds", section=SECTION, label="-",
-        claim="Against the small-strain stiffness the tangent stiffness lies between the secant "
-        "one and the secant one over 1 - Q^{p/2}; both bounds are reached.",
-        latex=r"(1 - Q^{p/2})^{-1/p}\, \mathsf w \cdot K \mathsf w \leq \mathsf w \cdot D^2 W"
-        r"(\mathsf u, \mathsf v)\, \mathsf w \leq (1 - Q^{p/2})^{-1/p-1}\, \mathsf w \cdot K "
-        r"\mathsf w, \quad \mathsf w = (\mathsf a, \mathsf b)",
-        printed=chain(
-            secant * FormQ(a, b), "<=", HessianForm(u, v, a, b), "<=", _factor * FormQ(a, b)
-        ),
-        check=rules.TangentBounds(UNIT_STRAINS),
-        note="D^2 W has five times the eigenvalue (1 - Q^{p/2})^{-1/p} relative to K, across the "
-        "load, and once (1 - Q^{p/2})^{-1/p-1}, along it. So its condition grows like "
-        "1/(1 - Q^{p/2}) at the strain limit, and det D^2 W = alpha^4 zeta^4 (beta^2 eta^2 - "
-        "iota^2) (1 - Q^{p/2})^{-6/p-1}.",
     )  # fmt: skip

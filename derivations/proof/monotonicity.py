@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import Evaluator, context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
 from rodproof.derivations.notation import (
@@ -111,6 +111,26 @@ def rest_is_uniform() -> bool:
     return all(_semidefinite(sp.Matrix(K[i, i] * K - K[:, i] * K[i, :]), facts) for i in range(6))
 
 
+@cache
+def stiffness_is_definite() -> bool:
+    """The leading minors of K are positive."""
+    K = constitutive.stiffness_at_rest()
+    facts = Field((chiral_gap,))
+    return all(facts.sign(K[:k, :k].det(method="berkowitz")) == 1 for k in range(1, 7))
+
+
+@cache
+def _interpreted(meaning: Meaning, side: sp.Expr) -> sp.Expr:
+    return meaning.interpret(side)
+
+
+@cache
+def _in_two_directions(meaning: Meaning) -> tuple[Evaluator, Evaluator]:
+    first, other = meaning.sample(0), meaning.sample(1)
+    second = {**first, **{d: other[d] for d in theory.DIRECTION}}
+    return meaning.evaluator(context(DIGITS), first), meaning.evaluator(context(DIGITS), second)
+
+
 # -- definiteness --------------------------------------------------------------------------------
 
 
@@ -132,18 +152,14 @@ class DefiniteTangent:
         hypothesis, conclusion = claim.args
         if not isinstance(conclusion, PositiveDefinite) or not self._whole_domain(hypothesis):
             return _REJECTED
-        form = self.meaning.interpret(conclusion.args[0])
+        form = _interpreted(self.meaning, conclusion.args[0])
         facts = Field(self.meaning.positive)
         core = theory.form_of(theory.hessian_core())
         try:
             multiple = facts.sign(form / core) if self._proportional(form, core) else None
         except OutOfReach:
             return _REJECTED
-        K = constitutive.stiffness_at_rest()
-        minors = (K[:k, :k].det(method="berkowitz") for k in range(1, 7))
-        at_rest = Field((chiral_gap,))
-        definite = all(at_rest.sign(minor) == 1 for minor in minors)
-        if multiple == 1 and definite and rest_is_uniform():
+        if multiple == 1 and stiffness_is_definite() and rest_is_uniform():
             return Decision(
                 True, True, "K (leading minors positive) times 1 - X > 0, plus a square; K at rest"
             )
@@ -155,19 +171,13 @@ class DefiniteTangent:
             return False
         left, right = hypothesis.sides
         excess = left - right if hypothesis.relations == ("<",) else right - left
-        facts = Field(self.meaning.positive)
-        return facts.equal(self.meaning.interpret(excess), constitutive.quadratic_form() - 1)
+        difference = _interpreted(self.meaning, excess) - constitutive.quadratic_form() + 1
+        return bool(sp.expand(difference) == 0)
 
     def _proportional(self, form: sp.Expr, core: sp.Expr) -> bool:
         """A quick look at two directions, before the exact certificate."""
-        ctx = context(DIGITS)
-        first, other = self.meaning.sample(0), self.meaning.sample(1)
-        second = {**first, **{d: other[d] for d in theory.DIRECTION}}
-        ratios = []
-        for point in (first, second):
-            evaluate = self.meaning.evaluator(ctx, point)
-            ratios.append(evaluate(form) / evaluate(core))
-        return bool(abs(ratios[0] - ratios[1]) < abs(ratios[0]) * ctx.mpf(10) ** -35)
+        first, second = (e(form) / e(core) for e in _in_two_directions(self.meaning))
+        return bool(abs(first - second) < abs(first) * 1e-35)
 
     def _failure(self, form: sp.Expr) -> Counterexample | None:
         """A strain and a direction, not zero, at which the form is zero or negative."""
@@ -228,7 +238,7 @@ class TangentBounds:
         along = (sp.Matrix(theory.DIRECTION).T * k)[0, 0] ** 2 / constitutive.quadratic_form()
         across = theory.rest_form() - along
         try:
-            low, form, high = (self.meaning.interpret(side) for side in claim.sides)
+            low, form, high = (_interpreted(self.meaning, side) for side in claim.sides)
             derived = theory.form_of(theory.hessian())
             certificates = (
                 facts.equal(form, derived),

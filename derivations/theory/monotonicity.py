@@ -113,8 +113,8 @@ def rest_form() -> sp.Expr:
 @cache
 def along_ray(expr: sp.Expr) -> sp.Expr:
     """An expression in the strains at rest + h eps."""
-    shifted = {s: h * e for s, e in zip(STRAINS[:5], STRAINS[:5], strict=True)}
-    return expr.subs({**shifted, STRAINS[5]: 1 + h * STRAIN_FROM_REST[5]}, simultaneous=True)
+    shifted = {s: h * s for s in STRAINS[:5]}
+    return expr.xreplace({**shifted, STRAINS[5]: 1 + h * STRAIN_FROM_REST[5]})
 
 
 @cache
@@ -127,3 +127,47 @@ def rest_quotient(load: sp.Expr, strain: int) -> sp.Expr:
     at[STRAINS[5]] = sp.Integer(1)
     at[STRAINS[strain]] += h
     return load.subs(at) / h
+
+
+# -- two states ----------------------------------------------------------------------------------
+
+#: Strains of two states A and B, and the radii x = Q^{1/2}, y = (Q*)^{1/2} of each.
+STATE_A: tuple[sp.Symbol, ...] = sp.symbols("uA1:4 vA1:4", real=True)
+STATE_B: tuple[sp.Symbol, ...] = sp.symbols("uB1:4 vB1:4", real=True)
+
+
+def strain_radius(state: tuple[sp.Symbol, ...]) -> sp.Expr:
+    """x = Q^{1/2} of a state."""
+    return sp.sqrt(quadratic_form().xreplace(dict(zip(STRAINS, state, strict=True))))
+
+
+def load_radius(state: tuple[sp.Symbol, ...]) -> sp.Expr:
+    """y = x (1 - x^p)^{-1/p} of a state, increasing in x (gamma = 1)."""
+    x = strain_radius(state)
+    return x * (1 - x**p) ** (-1 / p)
+
+
+def work_of_increments() -> sp.Expr:
+    """(sigma_B - sigma_A) . (eps_B - eps_A) for the loads that belong to two strains."""
+    first, second = (
+        dict(zip(STRAINS, STATE_A, strict=True)),
+        dict(zip(STRAINS, STATE_B, strict=True)),
+    )
+    return sp.Add(
+        *(
+            (load.xreplace(second) - load.xreplace(first)) * (b - a)
+            for load, a, b in zip(unit_loads(), STATE_A, STATE_B, strict=True)
+        )
+    )
+
+
+def increment_gap() -> sp.Expr:
+    """(y_A/x_A + y_B/x_B) (x_A x_B - eps_A . K eps_B).
+
+    By this the work of the increments exceeds (x_B - x_A)(y_B - y_A): with sigma = (y/x) K eps
+    both sides expand to the same. The second factor is not negative by Cauchy-Schwarz in K.
+    """
+    K = stiffness_at_rest()
+    a, b = (sp.Matrix([*state[:5], state[5] - 1]) for state in (STATE_A, STATE_B))
+    secants = sp.Add(*(load_radius(s) / strain_radius(s) for s in (STATE_A, STATE_B)))
+    return secants * (strain_radius(STATE_A) * strain_radius(STATE_B) - (a.T * K * b)[0, 0])
