@@ -13,8 +13,6 @@ from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 
 _NAMES = {
     **{f"{a}{k}": f"{a}_{k}" for a in "uvmn" for k in (1, 2, 3)},
-    "m_vector": r"\boldsymbol{m}",
-    "n_vector": r"\boldsymbol{n}",
     "n_s": r"\boldsymbol{n}(s)",
     "norm_T": r"|\boldsymbol{T}|",
     "Q_mirror": r"Q_{\mathrm{mirror}}",
@@ -35,7 +33,10 @@ _VECTORS = {
     "r": "r", "r_s": "r'", "d1_": "d_1", "d2_": "d_2", "d3_": "d_3", "d3_s": "d_3'",
     "m_g": "m", "n_s": "n'",
 }  # fmt: skip
-_FUNCTIONS = {"W_star": "W^*", "load": r"\hat y", "dim": r"\operatorname{dim}"}
+_FUNCTIONS = {"W_star": "W^*", "load": r"\hat y", "dim": r"\operatorname{dim}", "Phi": r"\Phi"}
+_LETTERS = frozenset(
+    ("alpha", "beta", "gamma", "zeta", "iota", "theta", "varphi", "sigma", "delta", "kappa")
+)
 _STANDARD = frozenset(
     ("log", "hyper", "Abs", "sin", "cos", "tan", "cot", "csc", "acos", "asin", "atan", "exp")
 )
@@ -51,7 +52,14 @@ class _Printer(LatexPrinter):
             letter, _, at = expr.name.removeprefix("bold_").partition("_")
             bold = rf"\boldsymbol{{{_letter(letter)}}}"
             return f"{bold}({at})" if at else bold
-        return _NAMES.get(expr.name) or str(super()._print_Symbol(expr))
+        if expr.name in _NAMES:
+            return _NAMES[expr.name]
+        if expr.name.isalpha() and len(expr.name) > 3 and expr.name not in _LETTERS:
+            return rf"\mathrm{{{expr.name}}}"
+        return str(super()._print_Symbol(expr))
+
+    def _print_Tuple(self, expr: sp.Tuple) -> str:
+        return ", ".join(self._print(a) for a in expr)
 
     def _print_IndexedBase(self, expr: sp.IndexedBase) -> str:
         name = str(expr.label)
@@ -76,7 +84,8 @@ class _Printer(LatexPrinter):
         text = self._print(terms[0])
         for term in terms[1:]:
             piece = self._print(term)
-            text += " " + (piece if piece.startswith("-") else "+ " + piece)
+            minus = piece.startswith("-")
+            text += " - " + piece.removeprefix("-").lstrip() if minus else " + " + piece
         return str(text)
 
     def _print_sin(self, expr: sp.Function, exp: str | None = None) -> str:
