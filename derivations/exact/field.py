@@ -306,6 +306,8 @@ class Field:
         return result
 
     def _power_of_factor(self, factor: Poly, exponent: sp.Expr) -> Fraction:
+        if exponent.is_Integer:  # ((1 - y)^2)^{1/2} with 1 - y > 0 is no root any more
+            return Fraction(factor, self._ctx.constant(1)).power(int(exponent))
         slot = self._single(factor)
         if slot is not None and slot in self._powers:  # (b^e)^f = b^{e f}
             power = self._powers[slot]
