@@ -12,11 +12,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from rodproof.codegen import show
+
+if TYPE_CHECKING:
+    from rodproof.derivations.records import Evidence
 
 DIFFERENT_VERDICT, USAGE, DIFFERENT_FILES = 1, 2, 3
 
@@ -118,11 +121,21 @@ def check(
     if as_json:
         show.as_json([row.as_row() for row in evidence])
     elif len(evidence) == 1:
-        show.story(evidence[0])
+        show.story(evidence[0], _steps(evidence[0]))
     else:
         show.evidence_table(evidence)
         typer.echo(f"{show.totals(evidence)}; {time.perf_counter() - started:.1f} s")
     _fail_on(show.differences(evidence, ledger.recorded()))
+
+
+def _steps(row: Evidence) -> tuple[tuple[str, str, str], ...]:
+    """Where the derivation settles a statement."""
+    from rodproof.derivations import chapters
+
+    return tuple(
+        (f"{derivation.label} {k}", derivation.steps[k - 1].title, derivation.steps[k - 1].rule)
+        for derivation, k in chapters.settling(row.id, row.section)
+    )
 
 
 @app.command()

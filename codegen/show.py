@@ -122,14 +122,18 @@ def totals(evidence: Sequence[Evidence]) -> str:
     return f"{len(evidence)} statement{'s' * (len(evidence) != 1)}: {parts or 'none'}"
 
 
-def story(row: Evidence) -> None:
-    """Everything that is known of one statement."""
+def story(row: Evidence, steps: Sequence[tuple[str, str, str]] = ()) -> None:
+    """Everything that is known of one statement.
+
+    steps: where the derivation settles it, as (label and number, title, rule).
+    """
     facts = {
         "statement": f"{row.id} (section {row.section}, {row.label})",
         "claim": row.claim,
         "as printed": row.latex,
         "verdict": row.verdict,
         "method": row.method,
+        **{f"derived in {where}": f"{title}. {rule}" for where, title, rule in steps},
         "second route": _route(row),
         "counterexample": row.counterexample,
         "corrected": row.correction_latex,

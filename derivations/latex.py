@@ -78,7 +78,7 @@ class _Printer(LatexPrinter):
         return rf"{name}_{{{indices}}}"
 
     def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
-        """Plain numbers first if positive, then the order of SymPy with a positive term in front."""
+        """Positive terms first, and plain numbers first among them."""
         terms = list(self._as_ordered_terms(expr, order=order))
         terms.sort(key=lambda t: (t.could_extract_minus_sign(), not t.is_number))
         text = self._print(terms[0])
@@ -96,6 +96,9 @@ class _Printer(LatexPrinter):
 
     def _print_cot(self, expr: sp.Function, exp: str | None = None) -> str:
         return self._of_angle(r"\cot", expr.args[0], exp)
+
+    def _print_csc(self, expr: sp.Function, exp: str | None = None) -> str:
+        return self._of_angle(r"\csc", expr.args[0], exp)
 
     def _of_angle(self, name: str, angle: sp.Expr, exp: str | None) -> str:
         power = f"^{{{exp}}}" if exp else ""

@@ -13,8 +13,21 @@ from functools import cache
 
 from rodproof.derivations.records import Derivation
 
-#: Modules with a `derivations()` function, in reading order.
-_MODULES = ("constitutive", "energies", "tangents")
+#: Module -> the section it belongs to and the labels of its derivations, in reading order. Only
+#: the module that is asked for is loaded.
+_MODULES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "kinematics": (("1", "2.1", "2.2"), ("kinematics", "balance")),
+    "constitutive": (
+        ("1", "3.1"),
+        ("quadratic-forms", "strains", "inverse", "strain-limit", "small-strain"),
+    ),
+    "energies": (("3.1",), ("stored-energy", "duality", "closed-forms")),
+    "tangents": (("3.1", "3.4"), ("hessian",)),
+    "orientation": (("3.2", "3.3"), ("orientation", "symmetry")),
+    "monotonicity": (("3.4",), ("monotonicity",)),
+    "euler": (("4", "4.1"), ("euler-angles", "reduced-equations")),
+    "couple": (("4.3",), ("twisted-states", "helical-states")),
+}
 
 
 class UnknownDerivation(ValueError):
@@ -22,23 +35,33 @@ class UnknownDerivation(ValueError):
 
 
 @cache
-def _all() -> Mapping[str, Derivation]:
-    found = {}
-    for name in _MODULES:
-        module = importlib.import_module(f"rodproof.derivations.chapters.{name}")
-        found |= {d.label: d for d in module.derivations()}
-    return found
+def _chapter(module: str) -> Mapping[str, Derivation]:
+    loaded = importlib.import_module(f"rodproof.derivations.chapters.{module}")
+    return {d.label: d for d in loaded.derivations()}
 
 
 def labels() -> tuple[str, ...]:
     """The labels of all derivations, in reading order."""
-    return tuple(_all())
+    return tuple(label for _, found in _MODULES.values() for label in found)
 
 
 def derive(label: str) -> Derivation:
     """The derivation with this label. Raises UnknownDerivation."""
-    if label not in _all():
-        near = difflib.get_close_matches(label, labels(), n=3, cutoff=0.3)
-        hint = f"; nearest: {', '.join(near)}" if near else ""
-        raise UnknownDerivation(f"there is no derivation {label!r}{hint}")
-    return _all()[label]
+    for module, (_, found) in _MODULES.items():
+        if label in found:
+            return _chapter(module)[label]
+    near = difflib.get_close_matches(label, labels(), n=3, cutoff=0.3)
+    hint = f"; nearest: {', '.join(near)}" if near else ""
+    raise UnknownDerivation(f"there is no derivation {label!r}{hint}")
+
+
+def settling(statement: str, section: str) -> tuple[tuple[Derivation, int], ...]:
+    """The steps that settle a statement, as (derivation, number of the step from 1)."""
+    return tuple(
+        (derivation, number)
+        for module, (sections, _) in _MODULES.items()
+        if section in sections
+        for derivation in _chapter(module).values()
+        for number, step in enumerate(derivation.steps, 1)
+        if statement in step.statements
+    )

@@ -32,6 +32,18 @@ def test_steps_settle_known_statements() -> None:
             assert set(step.statements) <= known, step.title
 
 
+def test_the_table_of_labels_is_what_the_modules_have() -> None:
+    for module, (sections, found) in chapters._MODULES.items():
+        assert tuple(chapters._chapter(module)) == found
+        settled = {
+            ledger.find((name,))[0].section
+            for label in found
+            for step in chapters.derive(label).steps
+            for name in step.statements
+        }
+        assert settled <= set(sections)
+
+
 def test_a_wrong_step_does_not_prove_itself() -> None:
     for step in chapters.derive("strains").steps:
         assert isinstance(step.formula, Chain) and step.check is not None
