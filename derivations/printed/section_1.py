@@ -129,13 +129,11 @@ def _couples() -> tuple[Statement, ...]:
         Statement(
             id="intro-poynting-chirality", section=SECTION, label="-",
             claim="An isolated couple whose chirality is opposite to the rod's elongates it.",
-            latex=r"\mathsf n = 0,\ \iota m_3 < 0 \implies |\boldsymbol r'| > 1",
-            printed=Implies(
-                chain(iota * m[3], "<", 0), chain(v[1] ** 2 + v[2] ** 2 + v[3] ** 2, ">", 1)
-            ),
+            latex=r"\mathsf n = 0,\ \iota m_3 < 0 \implies |\boldsymbol r'| = v_3 > 1",
+            printed=Implies(chain(iota * m[3], "<", 0), chain(v[3], ">", 1)),
             check=rules.ELONGATION,
             note="For every isolated couple, with bending as well: only its twisting component "
-            "counts. A couple of the rod's own chirality has v_3 < 1.",
+            "counts, and v_1 = v_2 = 0. A couple of the rod's own chirality has v_3 < 1.",
         ),
         Statement(
             id="intro-helix-two-parameters", section=SECTION, label="-",

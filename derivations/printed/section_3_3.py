@@ -83,7 +83,7 @@ def _definitions() -> tuple[Statement, ...]:
         ),
         Statement(
             id="isotropy-definition", section=SECTION, label="-",
-            claim="A hemitropic rod is isotropic if a reflection leaves the stored energy as it is.",
+            claim="A hemitropic rod is isotropic if a reflection keeps the stored energy.",
             latex=rf"\Phi({_E_TEX} \mathsf u, -{_E_TEX} \mathsf v){_RIGHT_TEX}",
             printed=_reflected(E, -E), correction=_reflected(-E, E),
             check=rules.Defines((ROTATION, REFLECTION)),

@@ -13,12 +13,12 @@ from itertools import product
 
 import sympy as sp
 
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import Evaluator, context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, ForAll, Iff, Implies, Q, chain, instances, u, v
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.implications import difference
-from rodproof.derivations.proof.meaning import IllTyped, Meaning
+from rodproof.derivations.proof.meaning import IllTyped
 from rodproof.derivations.proof.prover import DIGITS, POINTS
 from rodproof.derivations.proof.rules import EllipsoidBound
 from rodproof.derivations.proof.vectors import REJECTED
@@ -29,6 +29,7 @@ from rodproof.derivations.theory.constitutive import stiffness_at_rest
 from rodproof.derivations.theory.orientation import Infimum, a, infimum
 
 _root = sp.Symbol("root", positive=True)
+_TIE = 1e-40
 _ERRORS = (IllTyped, OutOfReach, ValueError, ZeroDivisionError)
 
 
@@ -53,9 +54,10 @@ def trial_constants() -> tuple[dict[sp.Symbol, sp.Rational], ...]:
     R = sp.Rational
     shapes = [(1, R(5, 3), R(4, 3)), (1, 5, 4), (1, R(5, 2), R(3, 2)), (1, 2, 0), (1, R(1, 2), 0),
               (1, R(3, 2), 0), (2, R(5, 2), 3), (2, 1, R(6, 5)), (R(1, 2), 5, R(3, 2)),
-              (3, R(5, 4), R(9, 4)), (1, R(13, 12), R(5, 12)), (1, R(3, 4), R(9, 20)),
-              (R(1, 2), 3, 0), (3, R(1, 2), 0)]  # fmt: skip
-    found = []
+              (3, R(5, 4), R(9, 4)), (1, R(13, 12), R(5, 12)), (1, R(5, 4), 0),
+              (2, R(5, 3), 2), (1, R(3, 4), R(9, 20)), (R(1, 2), 3, 0),
+              (3, R(1, 2), 0)]  # fmt: skip
+    found: list[dict[sp.Symbol, sp.Rational]] = []
     for (b, e, i), sign, radius in product(shapes, (1, -1), (R(1, 10), R(2, 5), 1, 3)):
         size = (R(2), R(1), R(1, 2))[len(found) % 3]
         values = {alpha: size, beta: b, gamma: 1, zeta: 1, eta: e, iota: sign * i, p: 2, a: radius}
@@ -63,28 +65,31 @@ def trial_constants() -> tuple[dict[sp.Symbol, sp.Rational], ...]:
     return tuple(found)
 
 
+@cache
+def _evaluators() -> tuple[Evaluator, ...]:
+    return tuple(Evaluator(context(DIGITS), point) for point in trial_constants())
+
+
 def disagreement(first: sp.Expr, second: sp.Expr) -> Counterexample | None:
-    """Constants at which one is positive and the other is not."""
-    meaning = Meaning("constants", (), sampling.constants, trial_constants)
-    for point in trial_constants():
-        evaluate = meaning.evaluator(context(DIGITS), point)
+    """Constants at which one is positive and the other is not (a tie up to rounding is neither)."""
+    for point, evaluate in zip(trial_constants(), _evaluators(), strict=True):
         try:
             x, y = evaluate(first), evaluate(second)
         except (ZeroDivisionError, KeyError, TypeError):
             return Counterexample((), "a misprint", "no number")
-        if getattr(x, "imag", 0) or getattr(y, "imag", 0) or (x > 0) != (y > 0):
+        if getattr(x, "imag", 0) or getattr(y, "imag", 0) or (x > _TIE) != (y > _TIE):
             where = tuple((str(k), str(value)) for k, value in point.items())
             return Counterexample(where, str(first.subs(point)), str(second.subs(point)))
     return None
 
 
 def _compared(first: sp.Expr, second: sp.Expr, method: str) -> Decision:
+    found = disagreement(first, second)
+    if found is not None:
+        return Decision(False, True, "counterexample", found)
     if same_sign(first, second):
         return Decision(True, True, method)
-    found = disagreement(first, second)
-    if found is None:
-        return Decision(None, False, "neither proved nor disproved")
-    return Decision(False, True, "counterexample", found)
+    return Decision(None, False, "neither proved nor disproved")
 
 
 def _one(tree: sp.Basic) -> sp.Basic:
@@ -117,10 +122,13 @@ class SameCondition:
 def _affine(claim: sp.Basic) -> Infimum:
     """The infimum over Q < 1 of what the inequality says is positive.
 
-    The norm of the flexure is the largest of its components, so it is replaced by one of them.
+    The norm of the flexure is the largest of its components over all directions, so where it
+    is subtracted the least value is that with one of them, whatever the direction.
     """
-    norm = sp.sqrt(STRAINS[0] ** 2 + STRAINS[1] ** 2)
-    return infimum(difference(claim).xreplace({norm: orientation.flexure_in_direction()}))
+    excess, norm = difference(claim), sp.sqrt(STRAINS[0] ** 2 + STRAINS[1] ** 2)
+    if excess.has(norm) and Field().sign(sp.expand(excess).coeff(norm)) != -1:
+        raise IllTyped("the norm does not lower what must be positive")
+    return infimum(excess.xreplace({norm: orientation.flexure_in_direction()}))
 
 
 def _margin(found: Infimum) -> sp.Expr:
@@ -167,7 +175,7 @@ class Ensures:
         slope = [sp.diff(affine, s) for s in STRAINS]
         for seed in range(POINTS):
             point = {**sampling.with_strains(seed), a: sp.Rational(5 + seed, 7)}
-            evaluate = Meaning("", (), sampling.constants, tuple).evaluator(ctx, point)
+            evaluate = Evaluator(ctx, point)
             K = ctx.matrix([[evaluate(e) for e in row] for row in stiffness_at_rest().tolist()])
             k = ctx.matrix([evaluate(e) for e in slope])
             size = ctx.sqrt((k.T * ctx.lu_solve(K, k))[0])

@@ -89,12 +89,21 @@ def components(ctx: Any, frame: Frame, vector: Vector) -> Vector:
     return list(ctx.lu_solve(columns, ctx.matrix(vector)))
 
 
+def frame_rates(ctx: Any, curve: Callable[[Any], Frame], at: Any) -> Frame:
+    """The numerical derivatives of the three directors."""
+
+    def director(k: int) -> Callable[[Any], Vector]:
+        return lambda s: curve(s)[k]
+
+    return [rate(ctx, director(k), at) for k in range(3)]
+
+
 def strains(
     ctx: Any, curve: Callable[[Any], tuple[Vector, Frame]], at: Any
 ) -> tuple[Vector, Vector]:
     """(u, v) of a rod given by r and its directors, by numerical derivatives."""
     frame = curve(at)[1]
-    rates = [rate(ctx, lambda s, k=k: curve(s)[1][k], at) for k in range(3)]
+    rates = frame_rates(ctx, lambda s: curve(s)[1], at)
     tangent = rate(ctx, lambda s: curve(s)[0], at)
     u = components(ctx, frame, darboux(ctx, frame, rates))
     return u, components(ctx, frame, tangent)

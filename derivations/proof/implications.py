@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from functools import cache
 
 import sympy as sp
 
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import Evaluator, context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Implies
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point
@@ -27,17 +27,25 @@ def difference(claim: sp.Basic) -> sp.Expr:
     return left - right if claim.relations[0] in (">", ">=") else right - left
 
 
+@cache
+def _evaluators(check: Implication) -> tuple[Evaluator, ...]:
+    ctx = context(DIGITS)
+    return tuple(check.meaning.evaluator(ctx, point) for point in check.candidates)
+
+
 @dataclass(frozen=True, eq=False)
 class Implication:
     """`Implies(h > 0, c > 0)` (or several c) on the domain of `meaning`.
 
     Proof: h is a monomial in one free variable up to its coefficient, so h = excess > 0 is solved
     for it, and then every c has a sign certificate. Disproof: a point with h > 0 and not c > 0.
-    A hypothesis that no trial point meets is rejected: nothing would be claimed.
+    A hypothesis that no trial point meets is rejected: nothing would be claimed. With `sharp`,
+    every c must vanish with h, so that a weaker conclusion is rejected too.
     """
 
     meaning: Meaning
     candidates: tuple[Point, ...]
+    sharp: bool = False
     vectors: Vectors = field(default_factory=lambda: Vectors({}))
 
     def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
@@ -49,12 +57,19 @@ class Implication:
             wanted = [self.meaning.interpret(difference(c)) for c in conclusions]
         except (IllTyped, ValueError):
             return REJECTED
-        held = [point for point in self.candidates if self._value(given, point) > 0]
+        try:
+            return self._decide(given, wanted, explain)
+        except (KeyError, TypeError, ZeroDivisionError):
+            return REJECTED  # a quantity that the domain does not have
+
+    def _decide(self, given: sp.Expr, wanted: list[sp.Expr], explain: bool) -> Decision:
+        trials = zip(self.candidates, _evaluators(self), strict=True)
+        held = [(point, evaluate) for point, evaluate in trials if evaluate(given) > 0]
         if not held:
             return Decision(False, False, "the hypothesis is never met")
-        for point in held:
+        for point, evaluate in held:
             for c in wanted:
-                if not self._value(c, point) > 0:
+                if not evaluate(c) > 0:
                     where = tuple((str(k), str(x)) for k, x in point.items())
                     exact = str(sp.nsimplify(c.subs(point)))
                     found = Counterexample(where, exact, "> 0") if explain else None
@@ -69,14 +84,14 @@ class Implication:
             solved = {variable: _excess / coefficient}
             try:
                 facts = [fact.subs(solved) for fact in self.meaning.positive]
-                if all(Field(facts).sign(c.subs(solved)) == 1 for c in wanted):
-                    return Decision(True, True, "hypothesis solved for, then sign certificates")
+                if not all(Field(facts).sign(c.subs(solved)) == 1 for c in wanted):
+                    continue
+                if self.sharp and not all(Field().is_zero(c.subs(variable, 0)) for c in wanted):
+                    return Decision(False, False, "true, but more could be said")
+                return Decision(True, True, "hypothesis solved for, then sign certificates")
             except OutOfReach:
                 continue
         return Decision(None, False, f"{DIGITS} digits at {len(self.candidates)} points")
-
-    def _value(self, expr: sp.Expr, point: Point) -> Any:
-        return self.meaning.evaluator(context(DIGITS), point)(expr)
 
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
         return None

@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
 import sympy as sp
 
 from rodproof.derivations.exact.field import Field
-from rodproof.derivations.notation import Chain, Every, Implies, PositiveDefinite
+from rodproof.derivations.notation import Chain, Every, Implies, Partial, PositiveDefinite
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.conditions import Ensures
 from rodproof.derivations.proof.domains import FUNCTIONS, ON_LOADS, ON_STRAINS, _Numbers
 from rodproof.derivations.proof.implications import Implication
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
-from rodproof.derivations.proof.prover import Identity
+from rodproof.derivations.proof.prover import Identity, claims
 from rodproof.derivations.proof.rules import Formalised
 from rodproof.derivations.proof.symmetry import HasSymmetries
 from rodproof.derivations.proof.vectors import REJECTED
 from rodproof.derivations.records import Check, Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import CONSTANTS, LOADS, STRAINS, chiral_gap, gamma, p
 from rodproof.derivations.theory import constitutive, loading
+from rodproof.derivations.theory.frames import theta
 from rodproof.derivations.theory.loading import couple, phase, tau
 from rodproof.derivations.theory.symmetry import ROTATION
 
@@ -69,20 +70,61 @@ def _route_ray(point: Point, ctx: Any) -> Values:
     return {**dict(zip(_named("e", LOADS), strain, strict=True)), radius: reached}
 
 
-RAY = Identity(
-    Meaning(
-        name="all loads and their multiples", free=(*CONSTANTS, *LOADS, tau), components=_on_ray(),
-        functions=FUNCTIONS, positive=ON_LOADS.positive, sample=_sample_ray, simple=_two_couples,
-        route=_route_ray, route_name="radius by quadrature of its slope, K inverted numerically",
-    )
+_RAY = Meaning(
+    name="all loads and their multiples", free=(*CONSTANTS, *LOADS, tau), components=_on_ray(),
+    functions=FUNCTIONS, positive=ON_LOADS.positive, sample=_sample_ray, simple=_two_couples,
+    route=_route_ray, route_name="radius by quadrature of its slope, K inverted numerically",
 )  # fmt: skip
+
+
+@cache
+def _growth_factor() -> tuple[Field, sp.Expr]:
+    """The strain radius under tau times the load, over that under the load."""
+    law, load = constitutive.radial_law().strain, sp.sqrt(constitutive.dual_form())
+    return Field(_RAY.positive), law.subs(constitutive.y, tau * load) / law.subs(
+        constitutive.y, load
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Growth:
+    """Every strain is the same increasing factor times its value, and has the stated limit.
+
+    A claim `Partial(x, tau) > 0` is accepted if x is that factor, tau f(tau y)/f(y), exactly.
+    """
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        if not isinstance(printed, Every):
+            return Identity(_RAY).decide(printed, explain=explain)
+        parts = list(claims(printed))
+        growing = [c for c in parts if isinstance(c, Chain) and c.relations == (">",)]
+        limits = [c for c in parts if c not in growing]
+        if len(growing) != 6 or len(limits) != 6:
+            return REJECTED
+        field, factor = _growth_factor()
+        if field.sign(sp.diff(factor, tau)) != 1:
+            return REJECTED
+        for claim in growing:
+            slope, zero = claim.sides
+            if not isinstance(slope, Partial) or slope.args[1] != tau or zero != 0:
+                return REJECTED
+            if not field.equal(_RAY.interpret(slope.args[0]), factor):
+                return Decision(False, False, "not the factor by which the strains grow")
+        found = Identity(_RAY).decide(Every(*limits), explain=explain)
+        return replace(found, method="one increasing factor for all strains; exact limits")
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        return Identity(_RAY).confirm(printed)
+
+
+RAY = _Growth()
 
 # -- an isolated couple ------------------------------------------------------------------------
 
 _COUPLES = tuple(
     {**c, **dict(zip(LOADS, map(sp.Integer, (*couple_, 0, 0, 0)), strict=True))}
     for c in (*sampling.simple_constants(), *(sampling.constants(k) for k in range(4)))
-    for couple_ in ((0, 0, 1), (0, 0, -2), (1, -2, 3), (-2, 1, -1))
+    for couple_ in ((0, 0, 1), (0, 0, -2), (1, -2, 3), (-2, 1, -1), (1, 1, -2), (-1, -1, 2))
 )
 ELONGATION = Implication(
     Meaning(
@@ -92,7 +134,7 @@ ELONGATION = Implication(
         positive=(chiral_gap, constitutive.dual_form().xreplace(loading.NO_FORCE)),
         sample=lambda seed: _COUPLES[-1 - seed], simple=lambda: _COUPLES,
     ),
-    _COUPLES,
+    _COUPLES, sharp=True,
 )  # fmt: skip
 
 # -- properties valid for all loads ------------------------------------------------------------
@@ -188,8 +230,8 @@ def _rank(*parameters: sp.Symbol) -> int:
     """
     point = {**sampling.simple_constants()[1], couple: sp.Integer(1)}
     half = sp.Rational(1, 3)
-    turned = {sp.cos(loading.theta): (1 - half**2) / (1 + half**2),
-              sp.sin(loading.theta): 2 * half / (1 + half**2)}  # fmt: skip
+    turned = {sp.cos(theta): (1 - half**2) / (1 + half**2),
+              sp.sin(theta): 2 * half / (1 + half**2)}  # fmt: skip
     constants = {c: point[c] for c in CONSTANTS}
     state = sp.Matrix([entry.subs(constants) for entry in loading.helix()])
     jacobian = state.jacobian(parameters).subs(turned).subs(point)

@@ -91,7 +91,7 @@ def _route_of_frame(point: Point, ctx: Any) -> Values:
         return curves.quaternion_frame(curves.plus(q, curves.times(s, w)))
 
     here = frame(ctx.mpf(0))
-    rates = [curves.rate(ctx, lambda s, k=k: frame(s)[k], ctx.mpf(0)) for k in range(3)]
+    rates = curves.frame_rates(ctx, frame, ctx.mpf(0))
     u = curves.darboux(ctx, here, rates)
     found: dict[sp.Basic, Any] = dict(zip(symbols_of("u"), u, strict=True))
     found |= dict(zip(STRAINS[:3], curves.components(ctx, here, u), strict=True))

@@ -13,8 +13,9 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
-from rodproof.derivations.notation import Chain, ForAll, Iff, instances
+from rodproof.derivations.notation import Chain, ForAll, Iff, Prime, instances
 from rodproof.derivations.proof import conditions, curves, kinematics, sampling
 from rodproof.derivations.proof.conditions import Ensures, OrientationChain, SameCondition
 from rodproof.derivations.proof.constitutive import _all_around
@@ -25,6 +26,7 @@ from rodproof.derivations.proof.rules import EllipsoidBound, Formalised
 from rodproof.derivations.proof.vectors import REJECTED, VectorIdentity, Vectors, symbols_of
 from rodproof.derivations.records import Confirmation, Decision
 from rodproof.derivations.symbols import STRAINS, chiral_gap, v1, v2, v3
+from rodproof.derivations.theory import kinematics as motion
 from rodproof.derivations.theory import orientation
 from rodproof.derivations.theory.constitutive import sharp_bound, stiffness_at_rest
 from rodproof.derivations.theory.orientation import a, x1, x2
@@ -83,7 +85,7 @@ _CHI = Vectors({**kinematics.VECTORS.table, chi_vector: symbols_of("chi"),
 
 def _placed() -> dict[sp.Symbol, sp.Expr]:
     """A section is moved as a rigid body: the place (x1, x2, 0) turned by R, carried to r."""
-    turned = kinematics.kinematics.rotation() * sp.Matrix([x1, x2, 0])
+    turned = motion.rotation() * sp.Matrix([x1, x2, 0])
     moved = [c + e for c, e in zip(symbols_of("r"), turned, strict=True)]
     return dict(zip(symbols_of("chi"), moved, strict=True))
 
@@ -97,7 +99,7 @@ def _sample_placed(seed: int) -> Point:
 def _route_placed(point: Point, ctx: Any) -> Values:
     """q (0, x1, x2, 0) q^{-1} by Hamilton's product, basis vector by basis vector."""
     c = curves.numbers(ctx, point)
-    frame = curves.quaternion_frame([c[q] for q in kinematics.kinematics.quaternion])
+    frame = curves.quaternion_frame([c[q] for q in motion.quaternion])
     moved = curves.plus([c[e] for e in symbols_of("r")], curves.times(c[x1], frame[0]),
                         curves.times(c[x2], frame[1]))  # fmt: skip
     found: dict[sp.Basic, Any] = dict(zip(symbols_of("chi"), moved, strict=True))
@@ -132,11 +134,11 @@ def _route_determinant(point: Point, ctx: Any) -> Values:
         return curves.plus(r, curves.times(y1, frame[0]), curves.times(y2, frame[1]))
 
     here = (c[x1], c[x2], ctx.mpf(1) / 3)
-    columns = [
-        curves.rate(ctx, lambda e, k=k: chi(*(y + e * (i == k) for i, y in enumerate(here))), 0)
-        for k in range(3)
-    ]
-    return {det: ctx.det(ctx.matrix(columns))}
+
+    def along(k: int) -> curves.Vector:
+        return curves.rate(ctx, lambda e: chi(*(y + e * (i == k) for i, y in enumerate(here))), 0)
+
+    return {det: ctx.det(ctx.matrix([along(k) for k in range(3)]))}
 
 
 STRAINED = Meaning(
@@ -152,9 +154,8 @@ DETERMINANT = Identity(STRAINED)
 @cache
 def _over_all_frames() -> bool:
     """The determinant in strains is (d_1 x d_2) . d chi/ds for every frame, exactly."""
-    k = kinematics.kinematics
     (d1, d2, _), (e1, e2, _) = (
-        [sp.Matrix(x) for x in part] for part in (k.directors(), k.director_rates())
+        [sp.Matrix(x) for x in part] for part in (motion.directors(), motion.director_rates())
     )
     moving = sp.Matrix(symbols_of("r_rate")) + x1 * e1 + x2 * e2
     field = Field(kinematics.FRAMES.positive)
@@ -206,7 +207,7 @@ class _PositiveOnDisc:
         least = orientation.least_on_disc(orientation.determinant())
         worst = 0.0
         for seed in range(2):
-            ctx = conditions.context(65)
+            ctx = context(65)
             point = dict(STRAINED.sample(seed))
             evaluate = STRAINED.evaluator(ctx, point)
             place = {x: evaluate(e) for x, e in zip((x1, x2), least.place, strict=True)}
@@ -251,7 +252,7 @@ ON_THE_DISC = _PositiveOnDisc()
 _UNIT = tuple(tuple(sp.Integer(i == k) for i in range(3)) for k in range(3))
 _IN_DIRECTORS = Vectors(
     {sp.Symbol(f"d{k + 1}", real=True): _UNIT[k] for k in range(3)}
-    | {kinematics.Prime(r_vector): (v1, v2, v3)}
+    | {Prime(r_vector): (v1, v2, v3)}
 )
 _TANGENTS = tuple(
     dict(zip((v1, v2, v3), map(sp.Integer, values), strict=True))
@@ -260,7 +261,7 @@ _TANGENTS = tuple(
 STRETCHED = Implication(
     Meaning("all r' seen from the directors", (v1, v2, v3), lambda seed: _TANGENTS[seed],
             lambda: _TANGENTS),
-    _TANGENTS, _IN_DIRECTORS,
+    _TANGENTS, vectors=_IN_DIRECTORS,
 )  # fmt: skip
 
 # -- conditions on the constants ---------------------------------------------------------------

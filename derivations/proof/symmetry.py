@@ -76,7 +76,7 @@ def _map(argument: sp.Expr, column: sp.IndexedBase) -> sp.Matrix:
     return matrix
 
 
-def _maps(claim: sp.Basic, energy: type) -> tuple[sp.Matrix, sp.Matrix]:
+def _maps(claim: sp.Basic, energy: type[sp.Function]) -> tuple[sp.Matrix, sp.Matrix]:
     """(A, B) of `energy(A u, B v) = energy(u, v)`."""
     if not isinstance(claim, Chain) or claim.relations != ("=",):
         raise IllTyped("a symmetry is an equation")

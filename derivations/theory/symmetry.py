@@ -23,6 +23,7 @@ from functools import cache
 
 import sympy as sp
 
+from rodproof.derivations.exact.field import Field
 from rodproof.derivations.symbols import STRAINS
 from rodproof.derivations.theory.constitutive import quadratic_form
 from rodproof.derivations.theory.frames import psi
@@ -94,8 +95,13 @@ def _linear(directors: list[sp.Matrix], vector: sp.Matrix, old: sp.Matrix) -> sp
 
 
 def _simplest(entry: sp.Expr) -> sp.Expr:
-    trigonometric = entry.has(sp.cos, sp.sin)
-    return sp.trigsimp(sp.expand(entry)) if trigonometric else sp.cancel(entry)
+    """Free of the mirror: the value at one mirror, proved to be the value at all."""
+    if not entry.has(*mirror):
+        return sp.trigsimp(sp.expand(entry))
+    value = entry.subs(dict(zip(mirror, (1, 2, 3), strict=True)))
+    if not Field().equal(entry, value):
+        raise ArithmeticError("the action of a reflection depends on the mirror")
+    return value
 
 
 def form_after(on_u: sp.Matrix, on_v: sp.Matrix) -> sp.Expr:
