@@ -200,6 +200,8 @@ class Field:
             base, exponent = expr.as_base_exp()
             if exponent.is_Integer:
                 return self.fraction(base).power(int(exponent))
+            if isinstance(base, sp.Pow) and base.exp.is_Integer and self.sign(base.base) == 1:
+                return self.fraction(base.base ** (base.exp * exponent))  # (b^k)^e with b > 0
             return self._power(self.fraction(base), exponent)
         if isinstance(expr, sp.exp):
             return self._power(self._of(self._slot(sp.E, positive=True)), expr.args[0])
@@ -306,8 +308,6 @@ class Field:
         return result
 
     def _power_of_factor(self, factor: Poly, exponent: sp.Expr) -> Fraction:
-        if exponent.is_Integer:  # ((1 - y)^2)^{1/2} with 1 - y > 0 is no root any more
-            return Fraction(factor, self._ctx.constant(1)).power(int(exponent))
         slot = self._single(factor)
         if slot is not None and slot in self._powers:  # (b^e)^f = b^{e f}
             power = self._powers[slot]
