@@ -20,8 +20,19 @@ from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.domains import _Numbers
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.symbols import (
-    LOADS, STRAINS, beta, chiral_gap, eta, gamma, iota, p, u3, v3, zeta,
+    LOADS,
+    STRAINS,
+    beta,
+    chiral_gap,
+    eta,
+    gamma,
+    iota,
+    p,
+    u3,
+    v3,
+    zeta,
 )  # fmt: skip
+from rodproof.derivations.theory import euler
 from rodproof.derivations.theory import thrust as theory
 from rodproof.derivations.theory.frames import euler_frame, phi, psi, theta
 from rodproof.derivations.theory.thrust import N, s, x
@@ -37,6 +48,9 @@ x_N = sp.Symbol("x_N", positive=True)
 x_Nk = sp.Symbol("x_{N_k}", positive=True)
 theta_Nk = sp.Symbol(r"{\theta}(N_k)", positive=True)
 theta_of_N = sp.Symbol(r"{\theta}(N_j)", real=True)
+strand_sense = sp.Symbol("h_strand", real=True)  # triple product of a strand's three derivatives
+strand_twist = sp.Symbol("tau", real=True)
+strand_radius, strand_stretch = sp.symbols("rho lambda", positive=True)
 theta_hat = sp.Symbol(r"\hat{\theta}", real=True)
 theta_infinity = sp.Symbol(r"{\theta}(\infty)", real=True)
 theta_hat_infinity = sp.Symbol(r"\hat{\theta}(\infty)", real=True)
@@ -80,8 +94,9 @@ def sheared_constants(seed: int) -> Point:
 def _generic(seed: int) -> dict[sp.Symbol, sp.Rational]:
     """Generic constants and thrusts, with everything that a state may depend on."""
     point = {**sampling.constants(seed), gamma: sp.Integer(1)}
-    more = {R: (23, 31, 47), theta: (11, 25, 40), phi: (-9, 14, 31), psi: (8, -13, 29),
-            psi0: (15, 4, -7), s: (5, 9, 13), x: (6, 13, 17)}
+    more = {R: (23, 31, 47), N: (23, 31, 47), theta: (11, 25, 40), phi: (-9, 14, 31),
+            psi: (8, -13, 29), psi0: (15, 4, -7), s: (5, 9, 13), x: (6, 13, 17),
+            strand_twist: (8, -11, 14), strand_radius: (5, 7, 9), strand_stretch: (23, 26, 15)}
     return point | {k: sp.Rational(v[seed % 3], 19) for k, v in more.items()}
 
 
@@ -103,7 +118,7 @@ def _above(seed: int) -> dict[sp.Symbol, sp.Rational]:
 def _small(**others: object) -> tuple[Point, ...]:
     """Small points: beta, eta, zeta, iota, p with rational b, and others given by name."""
     rows = ((1, 2, 1, 0, 2), (2, 2, 1, 0, 2), (1, 1, 1, 0, 2), (1, 2, 1, 1, 2), (2, 1, 1, -1, 1))
-    names = {k.name: k for k in (R, theta, phi, psi, psi0, s, x, angle)}
+    names = {k.name: k for k in (R, N, theta, phi, psi, psi0, s, x, angle)}
     given = {names[k]: sp.sympify(v) for k, v in others.items()}
     keys = (beta, eta, zeta, iota, p)
     return tuple({**dict(zip(keys, map(sp.Integer, row), strict=True)), **given} for row in rows)
@@ -111,8 +126,8 @@ def _small(**others: object) -> tuple[Point, ...]:
 
 def _small_points() -> tuple[Point, ...]:
     angles = {"theta": sp.pi / 6, "varphi": 0, "psi": 0, r"{\psi}(0)": 0, "s": 0}
-    return (*_small(R=2, x=1, **angles), *_small(R="3/2", x=1, **angles),
-            *_small(R="3/2", x="1/2", **angles))
+    return (*_small(R=2, N=2, x=1, **angles), *_small(R="3/2", N="3/2", x=1, **angles),
+            *_small(R="3/2", N="3/2", x="1/2", **angles))
 
 
 def _small_states() -> tuple[Point, ...]:
@@ -123,6 +138,15 @@ def _small_states() -> tuple[Point, ...]:
              p: sp.Integer(1), R: sp.Integer(2), phi: sp.Integer(0), psi0: sp.Integer(0),
              s: sp.Integer(0)}  # fmt: skip
     return (*rows, extra)
+
+
+def _small_limits() -> tuple[Point, ...]:
+    """b = 2/75, a = 9/25, c = 1/3, so that the limiting cosine is 9/10; beta = 2 and beta = 1."""
+    return tuple(
+        {beta: sp.Integer(k), eta: sp.Rational(49, 8), zeta: sp.Rational(5, 3),
+         iota: sp.Rational(k, 8), p: sp.Integer(2)}
+        for k in (2, 1)
+    )  # fmt: skip
 
 
 # -- states as components ---------------------------------------------------------------------
@@ -141,6 +165,7 @@ def _components(
     for i in range(3):
         found[sp.Symbol(f"r'{i + 1}", real=True)] = along[i]
         found |= {sp.Symbol(f"d{k + 1}{i + 1}", real=True): frame[k][i] for k in range(3)}
+    found[strand_sense] = theory.strand_handedness(strand_twist, strand_radius, strand_stretch)
     return found | {scalar_v: theory.shear_scalar(thrust, polar), N: thrust}
 
 
@@ -175,6 +200,18 @@ def numeric_thrust(point: Point, polar: Any, ctx: Any) -> Any:
         middle = (low + high) / 2
         low, high = (middle, high) if off_axis(low) * off_axis(middle) > 0 else (low, middle)
     return ctx.exp(ctx.findroot(off_axis, (low, high), solver="anderson"))
+
+
+def numeric_cosine(point: Point, thrust: Any, ctx: Any) -> Any:
+    """cos theta of the sheared state under a given thrust, by a root search in the angle."""
+
+    def off_axis(polar: Any) -> Any:
+        load = [0, 0, 0, -thrust * ctx.sin(polar), 0, thrust * ctx.cos(polar)]
+        strain = numeric_strains(point, load, ctx)
+        return strain[3] * ctx.cos(polar) / ctx.sin(polar) + 1 + strain[5]
+
+    found = ctx.findroot(off_axis, (ctx.mpf(10) ** -10, ctx.pi / 2), solver="anderson")
+    return ctx.cos(found)
 
 
 def _turned(ctx: Any, azimuth: Any, polar: Any, twist: Any) -> list[list[Any]]:
@@ -251,7 +288,7 @@ def _route_f(point: Point, ctx: Any) -> Values:
         load = [0, 0, 0, thrust * ctx.sqrt(1 - at**2), 0, thrust * at]
         return numeric_strains(point, load, ctx)[5].real
 
-    at, thrust = _number(ctx, point[x]), _number(ctx, point.get(R, sp.Integer(1)))
+    at, thrust = _number(ctx, point[x]), _number(ctx, point[N])
     far = ctx.mpf(10) ** 60
     return {
         fN(x): value(at, thrust),
@@ -277,6 +314,18 @@ def _route_far(point: Point, ctx: Any) -> Values:
 _LAW = "the law with K inverted numerically, in a frame turned numerically"
 
 
+def _couples() -> dict[sp.Symbol, sp.Expr]:
+    """M_k = m . e_k for m = m_k d_k."""
+    return {sp.Symbol(f"M{k}", real=True): part
+            for k, part in enumerate(euler.couple_in_frame(), 1)}  # fmt: skip
+
+
+COUPLES = Meaning(
+    name="all couples and angles", free=LOADS[:3], components=_couples(), sample=_generic,
+    simple=lambda: (),
+)  # fmt: skip
+
+
 def _any_angle(sign: int) -> Meaning:
     return Meaning(
         name=f"any angles, N {'>' if sign > 0 else '<'} 0", free=(R, theta, phi, psi),
@@ -288,6 +337,14 @@ def _any_angle(sign: int) -> Meaning:
 
 
 PUSHED_OR_PULLED = (_any_angle(1), _any_angle(-1))  # balanced or not
+
+
+
+def sheared_residual() -> sp.Expr:
+    """v_3 - v N cos theta under a tension, from the balance of couples over -N sin theta."""
+    couple = theory.unbalanced_couple(R, theta, psi, phi)[1]
+    return -couple / (R * sp.sin(theta))
+
 
 AT_REST = Meaning(
     name="N = 0, any angles", free=(theta, phi, psi),
@@ -308,6 +365,46 @@ def _straight(sign: int, polar: sp.Expr) -> Meaning:
     )  # fmt: skip
 
 
+v3_at_last, last_thrust, v3_slope = sp.symbols("v_3^{0} N^{0} v_3_N", real=True)
+
+
+def _sample_compressible(seed: int) -> Point:
+    """Constants with eta < 1, so that b > 1."""
+    point = {**_generic(seed), eta: sp.Rational(11 + 2 * seed, 19)}
+    return {**point, iota: sp.Rational(2, 5) * point[beta] * point[eta] * (-1) ** seed}
+
+
+def _route_last(point: Point, ctx: Any) -> Values:
+    """The thrust at which the numerical law has v_3 = 0, by a root search."""
+
+    def v_3(log_thrust: Any) -> Any:
+        return 1 + numeric_strains(point, [0] * 5 + [-ctx.exp(log_thrust)], ctx)[5]
+
+    thrust = -ctx.exp(ctx.findroot(v_3, (ctx.mpf(-10), ctx.mpf(40)), solver="anderson"))
+    return {last_thrust: thrust, v3_at_last: v_3(ctx.log(-thrust))}
+
+
+#: Compression of a straight rod with b > 1, up to v_3 = 0.
+LAST_COMPRESSION = Meaning(
+    name="theta = 0, b > 1, N < 0", free=(R,),
+    components={
+        v3_at_last: 1 + theory.straight_strain(5, theory.last_compression()),
+        last_thrust: theory.last_compression(),
+        v3_slope: -sp.diff(theory.straight_strain(5, -R), R),
+    },
+    positive=(chiral_gap, b - 1, b**p - b ** (p / 2)), sample=_sample_compressible,
+    simple=_small_states, route=_route_last,
+    route_name="root search for v_3 = 0 in the law with K inverted numerically",
+)  # fmt: skip
+
+#: The straight state as a function of N of either sign, for limits.
+FAR = Meaning(
+    name="theta = 0, N large", free=(N,),
+    components={u3: theory.straight_strain(2), v3: 1 + theory.straight_strain(5)},
+    positive=(chiral_gap,), sample=_generic, simple=_small_states, route=_route_far,
+    route_name="the law with K inverted numerically, N = 1e60 and -1e60",
+)  # fmt: skip
+
 PULLED, COMPRESSED = _straight(1, sp.Integer(0)), _straight(-1, sp.Integer(0))
 STRAIGHT = (PULLED, COMPRESSED)
 REVERSED = tuple(_straight(sign, sp.pi) for sign in (1, -1))
@@ -326,7 +423,7 @@ def _branch(sign: int) -> Meaning:
     return Meaning(
         name=f"sheared states, N {'>' if sign > 0 else '<'} 0", free=(angle, psi0, s),
         components=found, functions=_f(thrust),
-        positive=(*BRANCH_EXISTS, sp.cos(angle), sp.sin(angle),
+        positive=(*BRANCH_EXISTS, sp.cos(angle), sp.sin(angle), 1 - sp.cos(angle),
                   theory.dual_form(sp.Integer(1), angle), power),
         sample=_on_the_branch, simple=_small_states,
         route=route_on_branch if sign > 0 else None,
@@ -335,6 +432,16 @@ def _branch(sign: int) -> Meaning:
 
 
 BRANCH, MIRRORED_BRANCH = _branch(1), _branch(-1)
+#: The same with theta itself free, for limits in theta.
+BRANCH_FROM_ZERO = Meaning(
+    name="sheared states near theta = 0", free=(theta,),
+    components={N: theory.thrust_near_zero(theta), N_thresh: theory.threshold()},
+    positive=BRANCH_EXISTS, sample=_on_the_branch, simple=_small_states,
+    route=lambda point, ctx: {
+        LimitOf(N, theta, sp.Integer(0)): numeric_thrust(point, ctx.mpf(10) ** -40, ctx)
+    },
+    route_name="N by a root search on the moment balance at theta = 1e-40",
+)  # fmt: skip
 #: Every state of equilibrium under a pure force with N not 0, and then those with N = 0.
 LOADED_STATES = (*STRAIGHT, *REVERSED, BRANCH, MIRRORED_BRANCH)
 ALL_STATES = (*LOADED_STATES, AT_REST)
@@ -354,18 +461,52 @@ SHEARED = Meaning(
     simple=_small_states,
 )  # fmt: skip
 
-#: f_N on (0, 1) for N > 0, whatever the moduli; x = 0 and x = 1 by the edges of the claims.
+#: f_N for N > 0, whatever the moduli. w(x) > 0 on the closed interval, so that an identity (or a
+#: sign) proved there needs no separate look at x = 0 and x = 1.
 ON_COSINES = Meaning(
-    name="all N > 0 and x in [0, 1]", free=(R, x), components={N: R}, functions=_f(R),
-    positive=(chiral_gap, 1 - x, theory.weight(x)),
-    edges=({x: sp.Integer(0)}, {x: sp.Integer(1)}),
+    name="all N > 0 and x in [0, 1]", free=(N, x), functions=_f(N),
+    positive=(chiral_gap, N, theory.weight(x)),
     sample=_generic, simple=_small_points, route=_route_f,
     route_name="the law with K inverted numerically, numerical derivative, N = 1e60",
 )  # fmt: skip
 SOFT_COSINES = Meaning(
-    name="all N > 0 and x in [0, 1], under condition 1", free=(R, x), components={N: R},
-    functions=_f(R), positive=(*SOFTER_IN_SHEAR, 1 - x, theory.weight(x)),
-    edges=({x: sp.Integer(0)}, {x: sp.Integer(1)}),
+    name="all N > 0 and x in [0, 1], under condition 1", free=(N, x), functions=_f(N),
+    positive=(*SOFTER_IN_SHEAR, N, theory.weight(x)),
     sample=_on_the_branch, simple=_small_points, route=_route_f,
     route_name=ON_COSINES.route_name,
+)  # fmt: skip
+
+
+def _route_beyond(sign: int) -> Callable[[Point, Any], Values]:
+    def route(point: Point, ctx: Any) -> Values:
+        threshold = numeric_thrust(point, ctx.mpf(10) ** -40, ctx)  # the angle enters squared
+        power = threshold ** -_number(ctx, point[p]) - sign * _number(ctx, point[delta])
+        thrust = power ** (-1 / _number(ctx, point[p]))
+        value = numeric_strains(point, [0] * 5 + [thrust], ctx)[5]
+        return {N: thrust, fN(sp.Integer(1)): value}
+
+    return route
+
+
+def _beyond(sign: int) -> Meaning:
+    """N^{-p} = N_thresh^{-p} -+ delta: N above or below its threshold."""
+    power = theory.threshold_power() - sign * delta
+    held = theory.softness() ** p - sign * delta  # N^{-p} + b^{p/2}, a sum of positive numbers
+    thrust = power ** (-1 / p)
+    return Meaning(
+        name=f"N {'>' if sign > 0 else '<'} N_thresh", free=(delta,), components={N: thrust},
+        functions=_f(thrust), positive=(*BRANCH_EXISTS, power, held), sample=_above,
+        simple=_small_states, route=_route_beyond(sign),
+        route_name="f_N(1) from the law with K inverted numerically",
+    )  # fmt: skip
+
+
+ABOVE_THRESHOLD, BELOW_THRESHOLD = _beyond(1), _beyond(-1)
+
+#: The limit N -> oo of the branch: x is the cosine of the limiting angle.
+AT_INFINITY = Meaning(
+    name="the limit N -> oo on the branch", free=(),
+    components={x: theory.limiting_cosine(), theta_hat_infinity: sp.acos(theory.limiting_cosine())},
+    functions=_f(N), positive=(*BRANCH_EXISTS, theory.limiting_cosine()),
+    sample=_on_the_branch, simple=_small_limits,
 )  # fmt: skip

@@ -156,6 +156,12 @@ def thrust_of_angle(at: sp.Expr = x) -> sp.Expr:
     return inverse_thrust_power(at) ** (-1 / p)
 
 
+def thrust_near_zero(polar: sp.Expr = theta) -> sp.Expr:
+    """The same as a function of theta, with Q*/N^2 in sin theta and cos theta."""
+    power = (softness() * sp.cos(polar)) ** p - dual_form(sp.Integer(1), polar) ** (p / 2)
+    return power ** (-1 / p)
+
+
 def threshold_power() -> sp.Expr:
     """N_thresh^{-p}: the state with theta = 0 at which the sheared states begin (x = 1)."""
     return inverse_thrust_power(sp.Integer(1))
@@ -216,6 +222,7 @@ def last_compression() -> sp.Expr:
     return -((b**p - b ** (p / 2)) ** (-1 / p))
 
 
+@cache
 def strand_handedness(twist: sp.Expr, radius: sp.Expr, stretch: sp.Expr) -> sp.Expr:
     """(r' x r'') . r''' of a strand at distance `radius` from the axis of a rod twisted by `twist`.
 

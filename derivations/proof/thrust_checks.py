@@ -1,0 +1,390 @@
+"""The checks of Section 4.2 for claims about all states and for the reduced equations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+
+import sympy as sp
+
+from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.field import Field
+from rodproof.derivations.notation import Chain, Every, Implies, Prime, instances
+from rodproof.derivations.proof import thrust as domains
+from rodproof.derivations.proof.equilibrium import balance_residual, curve, frame
+from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point
+from rodproof.derivations.proof.prover import (
+    DIGITS,
+    POINTS,
+    Identity,
+    claims,
+)
+from rodproof.derivations.records import Check, Confirmation, Counterexample, Decision
+from rodproof.derivations.symbols import u3, v1, v2, v3
+from rodproof.derivations.theory import euler
+from rodproof.derivations.theory.frames import euler_frame, phi, psi, theta
+from rodproof.derivations.theory.thrust import N, s
+
+REJECTED = Decision(False, False, "rejected")
+
+
+def all_of(checks: Iterable[Check], printed: sp.Basic, explain: bool) -> Decision:
+    """The first failure, or a proof from every check."""
+    methods: list[str] = []
+    for check in checks:
+        found = check.decide(printed, explain=explain)
+        if not (found.holds and found.exact):
+            return found
+        methods.append(found.method)
+    return Decision(True, True, "; ".join(dict.fromkeys(methods)))
+
+
+def _named(printed: sp.Basic) -> set[sp.Basic]:
+    return set().union(*(tree.free_symbols for tree in instances(printed)))
+
+
+# -- claims about states ----------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class InAllStates:
+    """The claim holds in every one of the states.
+
+    `Implies(Ne(N, 0), claim)` leaves out the states without load, and `Implies(f > 0, claim)`
+    those where the quantity `orientation` is not positive, if that is what f is. named: symbols
+    that the claim has to mention (else u_2 = u_2 = 0 would pass for u_1 = u_2 = 0).
+    """
+
+    states: tuple[Meaning, ...]
+    orientation: sp.Expr | None = None
+    named: frozenset[sp.Symbol] = frozenset()
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        if not self.named <= _named(printed):
+            return REJECTED
+        narrowed = self._narrowed(printed)
+        if narrowed is None:
+            return REJECTED
+        states, claim = narrowed
+        return all_of((Identity(state) for state in states), claim, explain)
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        narrowed = self._narrowed(printed)
+        assert narrowed is not None
+        states, claim = narrowed
+        found = [Identity(state).confirm(claim) for state in states]
+        return worst_of([f for f in found if f is not None])
+
+    def _narrowed(self, printed: sp.Basic) -> tuple[tuple[Meaning, ...], sp.Basic] | None:
+        if not isinstance(printed, Implies):
+            return self.states, printed
+        hypothesis, claim = printed.args
+        if hypothesis == sp.Ne(N, 0):
+            return tuple(m for m in self.states if m.interpret(N) != 0), claim
+        if self.orientation is None or not isinstance(hypothesis, Chain):
+            return None
+        if hypothesis.relations != (">",):
+            return None
+        greater, smaller = hypothesis.sides
+        ratio = sp.cancel(instances(greater - smaller)[0] / self.orientation)
+        if not (ratio.is_number and ratio > 0):
+            return None
+        return tuple(narrowed_to(m, self.orientation) for m in self.states), claim
+
+
+@cache
+def narrowed_to(meaning: Meaning, quantity: sp.Expr) -> Meaning:
+    """The part of a domain where a quantity is positive."""
+    fact = meaning.interpret(quantity)
+
+    def positive(point: Point) -> bool:
+        return bool(meaning.evaluator(context(30), point)(quantity) > 0)
+
+    def sample(seed: int) -> Point:
+        return [point for point in map(meaning.sample, range(40)) if positive(point)][seed]
+
+    return Meaning(
+        name=f"{meaning.name}, {quantity} > 0", free=meaning.free, sample=sample,
+        simple=lambda: tuple(filter(positive, meaning.simple())), components=meaning.components,
+        functions=meaning.functions, positive=(*meaning.positive, fact),
+        route=meaning.route, route_name=meaning.route_name,
+    )  # fmt: skip
+
+
+def worst_of(found: list[Confirmation]) -> Confirmation | None:
+    """One confirmation for several."""
+    if not found:
+        return None
+    routes = "; ".join(dict.fromkeys(f.route for f in found))
+    worst, points = max(f.residual for f in found), sum(f.points for f in found)
+    return Confirmation(worst, points, DIGITS, routes)
+
+
+@dataclass(frozen=True, eq=False)
+class InEquilibrium(InAllStates):
+    """As above; the second route builds the state from what is stated and weighs its balance."""
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        first = super().confirm(printed)
+        narrowed = self._narrowed(printed)
+        assert narrowed is not None and first is not None
+        states, claim = narrowed
+        second = [Confirmation(_balance(state, claim), 1, DIGITS, _ROUTE) for state in states]
+        return worst_of([first, *second])
+
+
+_ROUTE = "r and directors built as stated, differentiated numerically; n' and m' + r' x n; n, m"
+
+
+def _balance(state: Meaning, claim: sp.Basic) -> float:
+    """The state with every stated component in place of the derived one: is it in equilibrium?
+
+    r = s r', so that an r' which is not constant shows too. What must vanish: n', m' + r' x n,
+    m, n - N g_3 and the differences between the strains found and those put in.
+    """
+    point, ctx = state.sample(0), context(DIGITS + 15)
+    parts = _configuration(state, claim)
+    values = {**point, N: state.evaluator(ctx, point)(N)}
+    at = values[s]
+    directors = frame([[parts[sp.Symbol(f"d{k}{i}", real=True)] for i in (1, 2, 3)]
+                       for k in (1, 2, 3)], s, values, ctx)  # fmt: skip
+    r = curve([s * parts[sp.Symbol(f"r'{i}", real=True)] for i in (1, 2, 3)], s, values, ctx)
+    found = balance_residual(r, directors, point, ctx, [at])
+    misses = [found.force_slope, found.couple_slope, *(abs(e) for m in found.couples for e in m)]
+    (force,), ((u, v),) = found.forces, found.strains
+    misses += [abs(f - g) for f, g in zip(force, (0, 0, values[N]), strict=True)]
+    stated = curve([parts[u3], parts[v1], parts[v2], parts[v3]], s, values, ctx)(
+        ctx.mpf(int(at.p)) / int(at.q)
+    )
+    misses += [abs(a - b) for a, b in zip((*u, *v), (0, 0, *stated), strict=True)]
+    return float(max(misses))
+
+
+def _configuration(state: Meaning, claim: sp.Basic) -> dict[sp.Symbol, sp.Expr]:
+    """u_3, v_k, d_k and r' as expressions: as stated, else from what is stated, else derived."""
+    stated: dict[sp.Symbol, sp.Expr] = {}
+    for single in claims(claim):
+        for left, relation, right in single.links():  # type: ignore[attr-defined]
+            symbol = next((x for x in sp.Add.make_args(left) if x.is_Symbol), None)
+            if relation == "=" and symbol is not None:
+                stated[symbol] = state.interpret(right - (left - symbol))
+    parts = {k: stated.get(k, state.components[k]) for k in (u3, v1, v2, v3)}
+    twist = parts[u3] * s + domains.psi0 - state.interpret(phi) * sp.cos(state.interpret(theta))
+    turned = euler_frame(state.interpret(phi), state.interpret(theta), twist)
+    for k in range(3):
+        for i in range(3):
+            symbol = sp.Symbol(f"d{k + 1}{i + 1}", real=True)
+            parts[symbol] = stated.get(symbol, turned[k][i])
+    for i in range(1, 4):
+        symbol = sp.Symbol(f"r'{i}", real=True)
+        along = (parts[v] * parts[sp.Symbol(f"d{k}{i}", real=True)]
+                 for k, v in enumerate((v1, v2, v3), 1))  # fmt: skip
+        parts[symbol] = stated.get(symbol, sp.Add(*along))
+    return parts
+
+
+@dataclass(frozen=True, eq=False)
+class Both:
+    """Every of several claims, each with its own check."""
+
+    checks: tuple[Check, ...]
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        if not isinstance(printed, Every) or len(printed.args) != len(self.checks):
+            return REJECTED
+        methods = []
+        for check, part in zip(self.checks, printed.args, strict=True):
+            found = check.decide(part, explain=explain)
+            if not (found.holds and found.exact):
+                return found
+            methods.append(found.method)
+        return Decision(True, True, "; ".join(dict.fromkeys(methods)))
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        found = [c.confirm(q) for c, q in zip(self.checks, printed.args, strict=True)]
+        return worst_of([f for f in found if f is not None])
+
+
+# -- one equation and its consequences --------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class LinkByLink:
+    """A chain each of whose links has its own check (an identity first, then what balance says)."""
+
+    checks: tuple[Check, ...]
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        parts = self._parts(printed)
+        if parts is None:
+            return REJECTED
+        pairs = zip(self.checks, parts, strict=True)
+        found = [check.decide(part, explain=explain) for check, part in pairs]
+        failed = [f for f in found if not (f.holds and f.exact)]
+        methods = "; then ".join(f.method for f in found)
+        return failed[0] if failed else Decision(True, True, methods)
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        parts = self._parts(printed)
+        assert parts is not None
+        found = [c.confirm(part) for c, part in zip(self.checks, parts, strict=True)]
+        return worst_of([f for f in found if f is not None])
+
+    def _parts(self, printed: sp.Basic) -> list[sp.Basic] | None:
+        hypothesis, chain = printed.args if isinstance(printed, Implies) else (None, printed)
+        if not isinstance(chain, Chain) or len(chain.relations) != len(self.checks):
+            return None
+        links = [Chain(sp.Tuple(a, b), sp.Tuple(sp.Symbol(r))) for a, r, b in chain.links()]
+        # The hypothesis is for what follows from balance, never for the first identity.
+        return links[:1] + [link if hypothesis is None else Implies(hypothesis, link)
+                            for link in links[1:]]  # fmt: skip
+
+
+def reduced(expr: sp.Expr) -> sp.Expr:
+    """An equation of the reduced system at m = 0: M_k = M_k' = 0."""
+    gone = dict.fromkeys((*euler.COUPLE, euler.M1_s, euler.M2_s, euler.M3_s), sp.Integer(0))
+    return expr.xreplace(gone)
+
+
+#: Rates in a transcription are the symbols of the reduced system; loads and strains stay symbols.
+SYMBOLIC = Meaning(
+    name="all angles, rates and strains", free=(),
+    functions={Prime: lambda unknown: euler.RATES[unknown]},
+    sample=lambda seed: {
+        k: sp.Rational((7 + 5 * i + 11 * seed) % 29 + 2, 13 + 2 * seed)
+        for i, k in enumerate((phi, theta, psi, *euler.RATES.values(), u3, v3, N,
+                               domains.scalar_v))
+    },
+    simple=lambda: (),
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Equation:
+    """`left = right` says exactly `residual = 0`: the difference is a fixed multiple of it."""
+
+    residual: sp.Expr
+    meaning: Meaning = SYMBOLIC
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        parts = list(claims(printed))
+        if len(parts) != 1 or not isinstance(parts[0], Chain) or parts[0].relations != ("=",):
+            return REJECTED
+        left, right = parts[0].sides
+        try:
+            difference = self.meaning.interpret(left - right)
+            ratio = self.constant_ratio(difference)
+        except (IllTyped, KeyError, TypeError, ZeroDivisionError):
+            return REJECTED
+        if ratio is None:
+            return REJECTED
+        if Field(self.meaning.positive).equal(difference, ratio * self.residual):
+            return Decision(True, True, "the derived equation, exactly")
+        return Decision(None, False, f"{DIGITS} digits")
+
+    def constant_ratio(self, difference: sp.Expr) -> sp.Rational | None:
+        """The small rational q with difference = q residual at generic points, if there is one."""
+        quotients = []
+        for seed in range(POINTS):
+            evaluate = self.meaning.evaluator(context(30), self.meaning.sample(seed))
+            quotients.append(evaluate(difference) / evaluate(self.residual))
+        for q in (1, -1, 2, -2, sp.Rational(1, 2), sp.Rational(-1, 2)):
+            if all(abs(x - float(q)) < 1e-25 for x in quotients):
+                return sp.sympify(q)
+        return None
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        return None
+
+
+FLEXURE_1, FLEXURE_2, TWIST = (reduced(e) for e in euler.law_in_frame())
+COUPLE_BALANCE = reduced(euler.couple_balance()[1])
+
+
+@dataclass(frozen=True, eq=False)
+class Alternatives:
+    """`equation iff one of two others`, under a hypothesis that makes the quotient nonzero.
+
+    The product of the alternatives divides the residual; the quotient must not vanish.
+    """
+
+    equation: Equation
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        given, claim = printed.args if isinstance(printed, Implies) else (None, printed)
+        whole, either = instances(claim)[0].args
+        if not self.equation.decide(whole).holds:
+            return REJECTED
+        meaning = self.equation.meaning
+        sides = [alternative.sides for alternative in either.args]
+        product = sp.Mul(*(meaning.interpret(a - b) for a, b in sides))
+        quotient = Equation(self.equation.residual, meaning)
+        try:
+            divides = quotient.constant_ratio(N * product) is not None
+        except KeyError:
+            divides = False  # a quantity that the equation is not about
+        if not divides:
+            return REJECTED
+        if given == sp.Ne(N, 0):
+            return Decision(True, True, "the equation factorises, exactly; N is not 0")
+        point = (("N", "0"), ("theta", "pi/6"), ("v3", "1"))
+        values = "sin(theta) = 1/2, v3 - v*N*cos(theta) = 1"
+        return Decision(False, True, "counterexample", Counterexample(point, "0 = 0", values))
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        return None
+
+
+@dataclass(frozen=True, eq=False)
+class Deduction:
+    """`factor != 0 and factor * X = 0, so X = 0`, where factor * X = 0 is a derived equation."""
+
+    equation: Equation
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        if not isinstance(printed, Implies) or not isinstance(printed.args[0], Every):
+            return REJECTED
+        (nonzero, given), conclusion = printed.args[0].args, printed.args[1]
+        if not isinstance(nonzero, sp.Ne) or not self.equation.decide(given).holds:
+            return REJECTED
+        factor, (left, right) = nonzero.args[0] - nonzero.args[1], conclusion.sides
+        try:
+            implied = self.equation.meaning.interpret(factor * (left - right))
+        except KeyError:
+            return REJECTED
+        if self.equation.constant_ratio(implied) is None:
+            return REJECTED
+        known = Field(domains.BRANCH.positive).sign(domains.BRANCH.interpret(factor))
+        if known in (1, -1):
+            return Decision(True, True, "a factor that is not zero on the branch is cancelled")
+        return REJECTED
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        return None
+
+
+@dataclass(frozen=True, eq=False)
+class Vanish:
+    """`vector = 0 iff components = 0`: both sides are regular linear systems in m_1, m_2, m_3."""
+
+    meaning: Meaning
+    unknown: tuple[sp.Symbol, ...]
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        for side in printed.args:
+            equations = []
+            for claim in claims(side):
+                for left, _, right in claim.links():
+                    equations.append(self.meaning.interpret(left - right))
+            system = sp.Matrix(equations)
+            matrix = system.jacobian(self.unknown)
+            rest = system.xreplace(dict.fromkeys(self.unknown, sp.Integer(0)))
+            if len(equations) != len(self.unknown) or any(rest):
+                return REJECTED
+            if Field().sign(sp.expand(matrix.det(method="berkowitz"))) not in (1, -1):
+                return REJECTED
+        return Decision(True, True, "regular linear systems (determinants are nonzero numbers)")
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        return None
