@@ -35,6 +35,7 @@ SECTIONS: Mapping[str, str] = {
     "4.1": "section_4_1",
     "4.3": "section_4_3",
     "5.1": "section_5_1",
+    "5.2": "section_5_2",
 }
 
 #: A second route must agree to this many digits of the 50 it works with.

@@ -10,7 +10,16 @@ import sympy as sp
 
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
-from rodproof.derivations.notation import Chain, Every, Iff, Implies, Prime, equal, instances
+from rodproof.derivations.notation import (
+    Chain,
+    Every,
+    Iff,
+    Implies,
+    LimitOf,
+    Prime,
+    equal,
+    instances,
+)
 from rodproof.derivations.proof import couple as domains
 from rodproof.derivations.proof.couple import Branch, OfState, c, on_all, r_s
 from rodproof.derivations.proof.meaning import IllTyped, Meaning
@@ -50,6 +59,10 @@ def _measured(printed: sp.Basic, branches: tuple[Branch, ...]) -> Confirmation |
     return OfState(branches).confirm(printed)
 
 
+#: The quantities of a claim, the limits that it takes, and the number of its parts.
+Subject = tuple[frozenset[sp.Basic], frozenset[tuple[sp.Basic, ...]], int]
+
+
 @dataclass(frozen=True, eq=False)
 class Exactly:
     """A check whose claim must be about exactly these quantities, and not say a thing twice.
@@ -58,12 +71,10 @@ class Exactly:
     """
 
     check: Check
-    about: frozenset[sp.Symbol]
-    parts: int
+    subject: Subject
 
     def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
-        about, parts = _subject(printed)
-        if about != self.about or parts != self.parts:
+        if _subject(printed) != self.subject:
             return _REJECTED
         return self.check.decide(printed, explain=explain)
 
@@ -71,15 +82,16 @@ class Exactly:
         return self.check.confirm(printed)
 
 
-def _subject(printed: sp.Basic) -> tuple[frozenset[sp.Symbol], int]:
+def _subject(printed: sp.Basic) -> Subject:
     (claim,) = instances(printed)
     parts = set(claim.args) if isinstance(claim, Every) else {claim}
-    return frozenset(claim.free_symbols), len(parts)
+    targets = frozenset(limit_.args[1:] for limit_ in claim.atoms(LimitOf))
+    return frozenset(claim.free_symbols), targets, len(parts)
 
 
 def exactly(check: Check, printed: sp.Basic) -> dict[str, Any]:
     """The two fields of a statement: what is printed, and the check bound to its subject."""
-    return {"printed": printed, "check": Exactly(check, *_subject(printed))}
+    return {"printed": printed, "check": Exactly(check, _subject(printed))}
 
 
 @dataclass(frozen=True, eq=False)
