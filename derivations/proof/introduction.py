@@ -15,7 +15,7 @@ from rodproof.derivations.proof.conditions import Ensures
 from rodproof.derivations.proof.domains import FUNCTIONS, ON_LOADS, ON_STRAINS, _Numbers
 from rodproof.derivations.proof.implications import Implication
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
-from rodproof.derivations.proof.prover import Identity, claims
+from rodproof.derivations.proof.prover import Identity, claims, counterexample
 from rodproof.derivations.proof.rules import Formalised
 from rodproof.derivations.proof.symmetry import HasSymmetries
 from rodproof.derivations.proof.vectors import REJECTED
@@ -95,7 +95,7 @@ class _Growth:
 
     def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
         if not isinstance(printed, Every):
-            return Identity(_RAY).decide(printed, explain=explain)
+            return self._one_load_at_a_time(printed)
         parts = list(claims(printed))
         growing = [c for c in parts if isinstance(c, Chain) and c.relations == (">",)]
         limits = [c for c in parts if c not in growing]
@@ -112,6 +112,18 @@ class _Growth:
                 return Decision(False, False, "not the factor by which the strains grow")
         found = Identity(_RAY).decide(Every(*limits), explain=explain)
         return replace(found, method="one increasing factor for all strains; exact limits")
+
+    @staticmethod
+    def _one_load_at_a_time(printed: sp.Basic) -> Decision:
+        """Slopes of single strains in single loads: one of them is negative somewhere."""
+        for claim in claims(printed):
+            if not isinstance(claim, Chain):
+                return REJECTED
+            for link in claim.links():
+                found = counterexample(link, _RAY)
+                if found is not None:
+                    return Decision(False, True, "counterexample", found)
+        return Decision(None, False, "no counterexample found")
 
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
         return Identity(_RAY).confirm(printed)
