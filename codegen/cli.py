@@ -222,7 +222,7 @@ def generate(
 
 @app.command()
 def document(
-    out: Annotated[Path | None, typer.Option(help="Folder; docs/derivation by default.")] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder; docs by default.")] = None,
     as_json: Json = False,
     jobs: Jobs = CORES,
 ) -> None:

@@ -18,7 +18,7 @@ class Places:
 
     @property
     def documents(self) -> Path:
-        return self.root / "docs" / "derivation"
+        return self.root / "docs"
 
     def report(self, *, quick: bool) -> Path:
         """The full report is kept with the project; a quick one is of the day and machine."""

@@ -137,7 +137,7 @@ def story(row: Evidence, steps: Sequence[tuple[str, str, str]] = ()) -> None:
         "second route": _route(row),
         "counterexample": row.counterexample,
         "corrected": row.correction_latex,
-        "proved by": row.repaired_by,
+        "smallest repair": row.repaired_by,
         "reading": row.reading,
         "mutants": _mutants(row) if row.mutants_tried is not None else None,
         "survivors": "; ".join(row.survivors),

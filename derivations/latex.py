@@ -73,6 +73,8 @@ class _Printer(LatexPrinter):
             stem, _, number = letter.partition("_")
             bold = rf"\boldsymbol{{{stem}}}" + (f"_{number}" if number else "") + mark
             return rf"({bold})_{{{indices}}}"
+        if name.endswith("_t"):
+            return rf"\partial_t {name[:-2]}_{{{indices}}}"
         if name in ("d", "e", "g"):
             return rf"\boldsymbol{{{name}}}_{{{indices}}}"
         return rf"{name}_{{{indices}}}"

@@ -136,6 +136,7 @@ _SIGNS = (
     (r">=", r"\geq "),
     (r"<=", r"\leq "),
     (r" \. ", r" \cdot "),
+    (r"(?<=[\w})']) x (?=[\w(\\])", r" \times "),
     (r"(?<![A-Za-z\\])sup ", r"\sup "),
     (r"(?<![A-Za-z\\])lim_", r"\lim_"),
     (r"(?<![A-Za-z\\])int_", r"\int_"),
