@@ -33,6 +33,7 @@ SECTIONS: Mapping[str, str] = {
     "3.4": "section_3_4",
     "4": "section_4",
     "4.1": "section_4_1",
+    "4.2": "section_4_2",
     "4.3": "section_4_3",
     "5.1": "section_5_1",
     "5.2": "section_5_2",

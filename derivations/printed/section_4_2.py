@@ -34,10 +34,11 @@ from rodproof.derivations.proof.thrust_checks import (
     TWIST,
     Alternatives,
     Both,
-    Equation,
     InAllStates,
     InEquilibrium,
+    Jointly,
     LinkByLink,
+    NamesStretch,
     Vanish,
 )  # fmt: skip
 from rodproof.derivations.records import Statement
@@ -86,26 +87,26 @@ def _reduced_equations() -> tuple[Statement, ...]:
             id="pure-force-phi", section=SECTION, label="eq:TTvarphi",
             claim="Without a couple the azimuth is constant where theta is not 0 or pi.",
             latex=r"\sin\theta\, \varphi' = 0",
-            printed=equal(_sin * Prime(phi), 0), check=Equation(FLEXURE_1),
+            printed=equal(_sin * Prime(phi), 0), check=FLEXURE_1,
             note="The flexure along e_1 is -sin theta phi'; the law makes it u M_1 = 0.",
         ),
         Statement(
             id="pure-force-theta-constant", section=SECTION, label="-",
             claim="Without a couple the polar angle is constant.",
             latex=r"\theta' = 0",
-            printed=equal(Prime(theta), 0), check=Equation(FLEXURE_2),
+            printed=equal(Prime(theta), 0), check=FLEXURE_2,
         ),
         Statement(
             id="pure-force-psi", section=SECTION, label="-",
             claim="Rate of the third angle.",
             latex=r"\psi' + \cos\theta\, \varphi' = u_3",
-            printed=equal(Prime(psi) + _cos * Prime(phi), u[3]), check=Equation(TWIST),
+            printed=equal(Prime(psi) + _cos * Prime(phi), u[3]), check=TWIST,
         ),
         Statement(
             id="pure-force-theta", section=SECTION, label="eq:TTtheta",
             claim="Balance of couples leaves one algebraic equation for theta.",
             latex=r"N \sin\theta\,(v_3 - v N \cos\theta) = 0",
-            printed=equal(N * _balance, 0), check=Equation(COUPLE_BALANCE),
+            printed=equal(N * _balance, 0), check=COUPLE_BALANCE,
         ),
         Statement(
             id="theta-determined-by-N", section=SECTION, label="-",
@@ -164,7 +165,7 @@ def _center_line() -> tuple[Statement, ...]:
             claim="The algebraic equation leaves two cases.",
             latex=r"\sin\theta = 0 \quad\text{or}\quad v_3 = v N \cos\theta",
             printed=alternatives, read_as=Implies(loaded, alternatives),
-            check=Alternatives(Equation(COUPLE_BALANCE)),
+            check=Alternatives(COUPLE_BALANCE),
             reading=at_rest + "any direction, where neither alternative need hold.",
         ),
         Statement(
@@ -246,7 +247,9 @@ def _straight_configuration() -> tuple[Statement, ...]:
             claim="Tangent of the center line of the straight state.",
             latex=r"\boldsymbol r'(s) = (v_1^2 + v_2^2 + v_3^2)^{1/2} \boldsymbol g_3",
             printed=along, read_as=Implies(positive(v[3]), along),
-            check=InEquilibrium(domains.STRAIGHT, orientation=v3, named=names),
+            check=Jointly(
+                (InEquilibrium(domains.STRAIGHT, orientation=v3, named=names), NamesStretch())
+            ),
             reading="v_3 > 0, which Section 2 asks of every configuration and which the stated "
             "v_3 does not always meet: in compression, if beta^2 > beta^2 eta^2 - iota^2, it fails "
             "from a finite thrust on, and r' = v_3 g_3 then points along -g_3.",

@@ -39,12 +39,14 @@ from rodproof.derivations.proof.thrust_branch import (
     limiting_angle,
 )  # fmt: skip
 from rodproof.derivations.proof.thrust_checks import (
+    COUPLE_BALANCE,
     FLEXURE_1,
     Both,
     Deduction,
     Equation,
     InAllStates,
     InEquilibrium,
+    Jointly,
     LinkByLink,
 )  # fmt: skip
 from rodproof.derivations.records import Check, Statement
@@ -237,7 +239,7 @@ def _threshold_and_existence() -> tuple[Statement, ...]:
                 equal(N * _sin * (v[3] - scalar_v * N * _cos), 0),
                 equal(LimitOf(N, theta, sp.Integer(0)), N_thresh),
             ),
-            Both((OnTheBranch((domains.BRANCH,), named=frozenset((theta, N, scalar_v))),
+            Both((Jointly((COUPLE_BALANCE, OnTheBranch((domains.BRANCH,)))),
                   OnTheBranch((domains.BRANCH_FROM_ZERO,), named=frozenset((N_thresh,))))),
             note="N increases with the angle from N_thresh to infinity, so that the branch is a "
             "continuous graph over N > N_thresh and meets theta = 0 only at N_thresh. The straight "
@@ -418,7 +420,7 @@ def _roots_and_limits() -> tuple[Statement, ...]:
             Implies(
                 Every(sp.Ne(_sin, 0), equal(_sin * Prime(phi), 0)), equal(Prime(phi), 0)
             ),
-            Deduction(Equation(FLEXURE_1)),
+            Deduction(FLEXURE_1),
         ),
         _statement(
             "sheared-identity", "The factor of the law on the sheared branch.",
@@ -532,7 +534,8 @@ def _extras() -> tuple[Statement, ...]:
             "extra-near-threshold", "The angle opens like the square root of N - N_thresh.",
             r"\lim_{\theta \to 0} \frac{N - N_{thresh}}{\theta^2} = \tfrac12 (c^p + "
             r"c\, b^{p/2 - 1}) N_{thresh}^{p + 1}, \quad " + short,
-            equal(LimitOf((N - N_thresh) / theta**2, theta, sp.Integer(0)), growth), NearThreshold(),
+            equal(LimitOf((N - N_thresh) / theta**2, theta, sp.Integer(0)), growth),
+            NearThreshold(),
         ),
         _statement(
             "extra-sheared-stretch", "Stretch of sheared states; it grows with the angle.",

@@ -214,7 +214,7 @@ def numeric_cosine(point: Point, thrust: Any, ctx: Any) -> Any:
     return ctx.cos(found)
 
 
-def _turned(ctx: Any, azimuth: Any, polar: Any, twist: Any) -> list[list[Any]]:
+def turned(ctx: Any, azimuth: Any, polar: Any, twist: Any) -> list[list[Any]]:
     """d_1, d_2, d_3 by turning e_1, e_2 and g_3 one rotation after the other (Rodrigues)."""
 
     def turn(vector: list[Any], axis: list[Any], by: Any) -> list[Any]:
@@ -231,7 +231,7 @@ def _turned(ctx: Any, azimuth: Any, polar: Any, twist: Any) -> list[list[Any]]:
 
 def _state_numbers(point: Point, ctx: Any, thrust: Any, angles: tuple[Any, Any, Any]) -> Values:
     """Strains by the numerical law in a frame that is turned numerically; r' from them."""
-    frame = _turned(ctx, *angles)
+    frame = turned(ctx, *angles)
     force = [thrust * vector[2] for vector in frame]
     strain = numeric_strains(point, [0, 0, 0, *force], ctx)
     v = [strain[3], strain[4], 1 + strain[5]]
@@ -457,7 +457,7 @@ SHEARED = Meaning(
     },
     positive=(chiral_gap, a / c, 1 / (c * tension), sp.sin(theta)),
     sample=lambda seed: {**_on_the_branch(seed), tension: sp.Rational(7 + 5 * seed, 11),
-                         theta: sp.Rational(4 + 3 * seed, 13)},
+                         theta: sp.Rational((4, 30, 10)[seed % 3], 13)},
     simple=_small_states,
 )  # fmt: skip
 
@@ -501,6 +501,11 @@ def _beyond(sign: int) -> Meaning:
     )  # fmt: skip
 
 
+def _route_at_infinity(point: Point, ctx: Any) -> Values:
+    cosine = numeric_cosine(point, ctx.mpf(10) ** 60, ctx)
+    return {x: cosine, theta_hat_infinity: ctx.acos(cosine)}
+
+
 ABOVE_THRESHOLD, BELOW_THRESHOLD = _beyond(1), _beyond(-1)
 
 #: The limit N -> oo of the branch: x is the cosine of the limiting angle.
@@ -508,5 +513,6 @@ AT_INFINITY = Meaning(
     name="the limit N -> oo on the branch", free=(),
     components={x: theory.limiting_cosine(), theta_hat_infinity: sp.acos(theory.limiting_cosine())},
     functions=_f(N), positive=(*BRANCH_EXISTS, theory.limiting_cosine()),
-    sample=_on_the_branch, simple=_small_limits,
+    sample=_on_the_branch, simple=_small_limits, route=_route_at_infinity,
+    route_name="angle by a root search on the moment balance at N = 1e60",
 )  # fmt: skip

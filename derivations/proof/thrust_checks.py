@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import sympy as sp
 
@@ -12,11 +13,19 @@ from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Every, Implies, Prime, instances
 from rodproof.derivations.proof import thrust as domains
-from rodproof.derivations.proof.equilibrium import balance_residual, curve, frame
+from rodproof.derivations.proof.equilibrium import (
+    balance_residual,
+    cross,
+    curve,
+    dot,
+    frame,
+    strains_of,
+)  # fmt: skip
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point
 from rodproof.derivations.proof.prover import (
     DIGITS,
     POINTS,
+    ROUTE_POINTS,
     Identity,
     claims,
 )
@@ -134,6 +143,22 @@ class InEquilibrium(InAllStates):
         return worst_of([first, *second])
 
 
+@dataclass(frozen=True, eq=False)
+class NamesStretch:
+    """The one right side that is not 0 is |r'| in every state, sheared or not."""
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        claim = printed.args[1] if isinstance(printed, Implies) else printed
+        right = [single.sides[1] for single in claims(claim)]  # type: ignore[attr-defined]
+        (size,) = (value for value in right if value != 0)
+        square = sp.Add(*(domains.tangent[i] ** 2 for i in (1, 2, 3)))
+        squares = Chain(sp.Tuple(size**2, square), sp.Tuple(sp.Symbol("=")))
+        return InAllStates(domains.PUSHED_OR_PULLED).decide(squares, explain=explain)
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        return None
+
+
 _ROUTE = "r and directors built as stated, differentiated numerically; n' and m' + r' x n; n, m"
 
 
@@ -182,6 +207,20 @@ def _configuration(state: Meaning, claim: sp.Basic) -> dict[sp.Symbol, sp.Expr]:
                  for k, v in enumerate((v1, v2, v3), 1))  # fmt: skip
         parts[symbol] = stated.get(symbol, sp.Add(*along))
     return parts
+
+
+@dataclass(frozen=True, eq=False)
+class Jointly:
+    """One claim, held against several checks."""
+
+    checks: tuple[Check, ...]
+
+    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        return all_of(self.checks, printed, explain)
+
+    def confirm(self, printed: sp.Basic) -> Confirmation | None:
+        found = [check.confirm(printed) for check in self.checks]
+        return worst_of([f for f in found if f is not None])
 
 
 @dataclass(frozen=True, eq=False)
@@ -266,6 +305,7 @@ class Equation:
 
     residual: sp.Expr
     meaning: Meaning = SYMBOLIC
+    route: Callable[[Point, Any], Any] | None = None
 
     def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
         parts = list(claims(printed))
@@ -295,11 +335,52 @@ class Equation:
         return None
 
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
-        return None
+        """The difference of the sides against the residual in a frame turned numerically."""
+        if self.route is None:
+            return None
+        (claim,) = claims(printed)
+        left, right = claim.sides  # type: ignore[attr-defined]
+        difference = self.meaning.interpret(left - right)
+        ratio, ctx, worst = self.constant_ratio(difference), context(DIGITS + 15), 0.0
+        for seed in range(ROUTE_POINTS):
+            point = self.meaning.sample(seed)
+            found = self.meaning.evaluator(ctx, point)(difference)
+            worst = max(worst, float(abs(found - int(ratio or 0) * self.route(point, ctx))))
+        how = "frames turned one rotation after the other, differentiated numerically"
+        return Confirmation(worst, ROUTE_POINTS, DIGITS, how)
 
 
-FLEXURE_1, FLEXURE_2, TWIST = (reduced(e) for e in euler.law_in_frame())
-COUPLE_BALANCE = reduced(euler.couple_balance()[1])
+def _numeric(part: int) -> Callable[[Point, Any], Any]:
+    """u . e_1, u . e_2, u . e_3 - u_3 (part 0, 1, 2) or (r' x N g_3) . e_2 (part 3), as numbers."""
+
+    def route(point: Point, ctx: Any) -> Any:
+        c = {k: ctx.mpf(int(q.p)) / int(q.q) for k, q in point.items()}
+        along = [(c[a], c[euler.RATES[a]]) for a in (phi, theta, psi)]
+
+        def directors(at: Any) -> list[list[Any]]:
+            return domains.turned(ctx, *(start + rate * at for start, rate in along))
+
+        def still(at: Any) -> list[Any]:
+            return [ctx.mpf(0)] * 3
+
+        frame_now = directors(ctx.mpf(0))
+        basis = domains.turned(ctx, c[phi], c[theta], ctx.mpf(0))
+        if part < 3:
+            u, _ = strains_of(still, directors, ctx.mpf(0), ctx)
+            darboux = [ctx.fsum(u[k] * frame_now[k][i] for k in range(3)) for i in range(3)]
+            return dot(darboux, basis[part], ctx) - (c[u3] if part == 2 else 0)
+        force = [c[N] * d[2] for d in frame_now]
+        v = [c[domains.scalar_v] * force[0], c[domains.scalar_v] * force[1], c[v3]]
+        tangent = [ctx.fsum(v[k] * frame_now[k][i] for k in range(3)) for i in range(3)]
+        return dot(cross(tangent, [0, 0, c[N]]), basis[1], ctx)
+
+    return route
+
+
+FLEXURE_1, FLEXURE_2, TWIST = (
+    Equation(reduced(e), route=_numeric(k)) for k, e in enumerate(euler.law_in_frame())
+)
+COUPLE_BALANCE = Equation(reduced(euler.couple_balance()[1]), route=_numeric(3))
 
 
 @dataclass(frozen=True, eq=False)
