@@ -19,7 +19,10 @@ from rodproof.derivations.notation import (
 )
 from rodproof.derivations.printed import section_4_3_helix
 from rodproof.derivations.proof import couple_checks as rules
-from rodproof.derivations.proof.couple import OfState, d1, d2, d3, d3_s, length, r_s
+from rodproof.derivations.proof import couple_states as states
+from rodproof.derivations.proof.couple import OfState
+from rodproof.derivations.proof.couple_route import d1, d2, d3, d3_s, length, r_s
+from rodproof.derivations.proof.exactly import exactly
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import beta, eta, iota, p
 from rodproof.derivations.theory.couple import psi_0, s
@@ -53,9 +56,7 @@ def _equations() -> tuple[Statement, ...]:
     spin = equal(Prime(psi) + sp.cos(theta) * Prime(phi), u[3])
     third = equal((M[1] * sp.cos(theta) + M[3] * sp.sin(theta)) * Prime(phi), 0)
     bend = equal(Prime(theta), u_scalar * M[2])
-    first_balance = equal(
-        Prime(M[1]) - M[2] * sp.cos(theta) * Prime(phi) + Prime(theta) * M[3], 0
-    )
+    first_balance = equal(Prime(M[1]) - M[2] * sp.cos(theta) * Prime(phi) + Prime(theta) * M[3], 0)
     second_balance = equal(
         Prime(M[2]) + (M[1] * sp.cos(theta) + M[3] * sp.sin(theta)) * Prime(phi), 0
     )
@@ -64,25 +65,34 @@ def _equations() -> tuple[Statement, ...]:
     none = Every(equal(M[1], 0), equal(M[2], 0))
     return (
         Statement(
-            id="M2-zero-iff", section=SECTION, label="-",
+            id="M2-zero-iff",
+            section=SECTION,
+            label="-",
             claim="M_2 vanishes exactly where theta is stationary.",
             latex=r"M_2 = 0 \iff \theta' = 0",
-            printed=Iff(equal(M[2], 0), equal(Prime(theta), 0)), check=rules.BENDING_ZERO,
+            printed=Iff(equal(M[2], 0), equal(Prime(theta), 0)),
+            check=rules.BENDING_ZERO,
             note="theta' = u M_2 with u > 0; the sign of this relation does not matter here.",
         ),
         Statement(
-            id="couple-theta-range", section=SECTION, label="-", introduces=True,
+            id="couple-theta-range",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="The polar angle is taken between 0 and a right angle.",
             latex=r"\theta \in [0, \pi/2]",
-            printed=chain(0, "<=", theta, "<=", sp.pi / 2), check=rules.HalfOfAllAngles(),
+            printed=chain(0, "<=", theta, "<=", sp.pi / 2),
+            check=rules.HalfOfAllAngles(),
             note="Nothing is lost: without force a half turn about g_1 is a symmetry, and it "
             "maps theta to pi - theta.",
         ),
         Statement(
-            id="couple-derivation", section=SECTION, label="-",
+            id="couple-derivation",
+            section=SECTION,
+            label="-",
             claim="With theta' = M_2 = 0 the first and third couple balance give the equations "
             "for phi and psi, the third condition, and constant theta, M_1 and M_3.",
-            latex=r"\eqref{eq:M1seq}, \eqref{eq:M3seq} \implies \sin\theta\,\varphi' = -u M_1,\;"
+            latex=r"\text{(M1seq), (M3seq)} \implies \sin\theta\,\varphi' = -u M_1,\;"
             r" \psi' + \cos\theta\,\varphi' = u_3,\; (M_1 \cos\theta + M_3 \sin\theta)\varphi' = 0,"
             r"\; M_1' = M_3' = 0",
             printed=Implies(Every(first_balance, third_balance), concluded),
@@ -91,29 +101,42 @@ def _equations() -> tuple[Statement, ...]:
             ),
             check=rules.Consequence(conclusions=5),
             reading="The two cited equations give that M_1 and M_3 are constant, and nothing more. "
-            "The equations for phi and psi are \\eqref{eq:phiseq} and \\eqref{eq:psiseq}, and the "
-            "condition (M_1 cos theta + M_3 sin theta) phi' = 0 is \\eqref{eq:M2seq}, which is not "
+            "The equations for phi and psi are eq:phiseq and eq:psiseq, and the "
+            "condition (M_1 cos theta + M_3 sin theta) phi' = 0 is eq:M2seq, which is not "
             "cited: M_1 = 1, M_3 = 0, theta = pi/3 with constant phi' != 0 meets both cited "
             "equations and violates it.",
         ),
         Statement(
-            id="couple-phi", section=SECTION, label="eq:noN1",
+            id="couple-phi",
+            section=SECTION,
+            label="eq:noN1",
             claim="Under couples alone: equation for phi.",
-            latex=r"\sin\theta\,\varphi' = -u M_1", printed=turn, check=rules.PHI_EQUATION,
+            latex=r"\sin\theta\,\varphi' = -u M_1",
+            printed=turn,
+            check=rules.PHI_EQUATION,
         ),
         Statement(
-            id="couple-psi", section=SECTION, label="-",
+            id="couple-psi",
+            section=SECTION,
+            label="-",
             claim="Under couples alone: equation for psi.",
-            latex=r"\psi' + \cos\theta\,\varphi' = u_3", printed=spin, check=rules.PSI_EQUATION,
+            latex=r"\psi' + \cos\theta\,\varphi' = u_3",
+            printed=spin,
+            check=rules.PSI_EQUATION,
         ),
         Statement(
-            id="couple-third-equation", section=SECTION, label="-",
+            id="couple-third-equation",
+            section=SECTION,
+            label="-",
             claim="Under couples alone: what is left of the balance of couples.",
-            latex=r"(M_1 \cos\theta + M_3 \sin\theta)\varphi' = 0", printed=third,
+            latex=r"(M_1 \cos\theta + M_3 \sin\theta)\varphi' = 0",
+            printed=third,
             check=rules.THIRD_EQUATION,
         ),
         Statement(
-            id="couple-M1-zero-cases", section=SECTION, label="-",
+            id="couple-M1-zero-cases",
+            section=SECTION,
+            label="-",
             claim="If M_1 = M_2 = 0 the bending couples vanish, and theta = 0 or phi is constant.",
             latex=r"M_1 = M_2 = 0 \implies m_1 = m_2 = 0,\; \sin\theta\,\varphi' = 0",
             printed=Implies(
@@ -130,23 +153,38 @@ def _twisted() -> tuple[Statement, ...]:
     check = OfState(rules.TWISTED)
     return (
         Statement(
-            id="twist-u12", section=SECTION, label="-", claim="Twisted state: no flexure.",
-            latex=r"u_1 = u_2 = 0", **rules.exactly(check, equal(u[1], u[2], 0)),
+            id="twist-u12",
+            section=SECTION,
+            label="-",
+            claim="Twisted state: no flexure.",
+            latex=r"u_1 = u_2 = 0",
+            **exactly(check, equal(u[1], u[2], 0)),
         ),
         Statement(
-            id="twist-u3", section=SECTION, label="eq:TTu3M", claim="Twisted state: the twist.",
+            id="twist-u3",
+            section=SECTION,
+            label="eq:TTu3M",
+            claim="Twisted state: the twist.",
             latex=rf"u_3 = {_F_TEX} \frac{{\eta^2 M_3}}{{{_D_TEX}}}",
-            printed=equal(u[3], _factor * eta**2 * M[3] / _D), check=check,
+            printed=equal(u[3], _factor * eta**2 * M[3] / _D),
+            check=check,
         ),
         Statement(
-            id="twist-v12", section=SECTION, label="-", claim="Twisted state: no shear.",
-            latex=r"v_1 = v_2 = 0", **rules.exactly(check, equal(v[1], v[2], 0)),
+            id="twist-v12",
+            section=SECTION,
+            label="-",
+            claim="Twisted state: no shear.",
+            latex=r"v_1 = v_2 = 0",
+            **exactly(check, equal(v[1], v[2], 0)),
         ),
         Statement(
-            id="twist-v3", section=SECTION, label="-",
+            id="twist-v3",
+            section=SECTION,
+            label="-",
             claim="Twisted state: the dilatation strain less one.",
             latex=rf"v_3 - 1 = {_V3_TEX}",
-            printed=equal(v[3] - 1, _factor * -iota * M[3] / _D), check=check,
+            printed=equal(v[3] - 1, _factor * -iota * M[3] / _D),
+            check=check,
         ),
     )
 
@@ -174,22 +212,25 @@ def _directors() -> tuple[Statement, ...]:
     )  # fmt: skip
     return (
         Statement(
-            id="twist-centerline", section=SECTION, label="-",
+            id="twist-centerline",
+            section=SECTION,
+            label="-",
             claim="Twisted state: d_3 is constant and the center line is parallel to it.",
             latex=r"\boldsymbol d_3' = \boldsymbol 0, \quad \boldsymbol r' \times \boldsymbol d_3"
             r" = \boldsymbol 0",
-            **rules.exactly(
+            **exactly(
                 OfState((*rules.TWISTED, *rules.TURNED)),
                 Every(*(equal(d3_s[k], 0) for k in (1, 2, 3)), *line),
             ),
         ),
         *(
             Statement(
-                id=name, section=SECTION, label="-", claim=f"Twisted state: the {which} director.",
+                id=name,
+                section=SECTION,
+                label="-",
+                claim=f"Twisted state: the {which} director.",
                 latex=latex,
-                **rules.exactly(
-                    check, Every(*(equal(base[k], e) for k, e in enumerate(vector, 1)))
-                ),
+                **exactly(check, Every(*(equal(base[k], e) for k, e in enumerate(vector, 1)))),
                 note="At theta = 0 only phi + psi is determined, and the formula holds for "
                 "every phi(s) with phi(0) = 0.",
             )
@@ -202,20 +243,24 @@ def _length() -> tuple[Statement, ...]:
     elongation = v[3] - 1
     return (
         Statement(
-            id="twist-length", section=SECTION, label="-",
+            id="twist-length",
+            section=SECTION,
+            label="-",
             claim="The length of the twisted rod, less one.",
             latex=r"\int_0^1 |\boldsymbol r'(s)|\,ds - 1 = v_3 - 1 = " + _V3_TEX,
             printed=equal(
                 sp.Integral(length, (s, 0, 1)) - 1, elongation, _factor * -iota * M[3] / _D
             ),
-            check=rules.OnTwisted(stretched=True),
+            check=states.OnTwisted(stretched=True),
             reading="What is given is the change of length, not the length, and |r'| = v_3 needs "
             "v_3 > 0 (required of all configurations in Section 2.1). The law alone does not "
             "ensure it: with beta = eta = 1, iota = 9/10 and p = 2 the strain v_3 tends to "
             "1 - 9/sqrt(19) < 0 as M_3 grows. See extra-twist-v3-positive.",
         ),
         Statement(
-            id="extra-twist-v3-positive", section=SECTION, label="-",
+            id="extra-twist-v3-positive",
+            section=SECTION,
+            label="-",
             claim="The least v_3 that a couple about d_3 can approach is positive if and only if "
             "iota^2 (1 + eta^2) < beta^2 eta^4.",
             latex=r"\inf_{M_3} v_3 = 1 - \frac{|\iota|}{\eta(\beta^2\eta^2 - \iota^2)^{1/2}} > 0"
@@ -224,12 +269,14 @@ def _length() -> tuple[Statement, ...]:
                 positive(1 - sp.Abs(iota) / (eta * sp.sqrt(_D))),
                 positive(beta**2 * eta**4 - iota**2 * (1 + eta**2)),
             ),
-            check=rules.LEAST_STRETCH,
+            check=states.LEAST_STRETCH,
             note="At equality v_3 > 0 for every couple, and the infimum 0 is not reached. Weaker "
             "than the paper's condition for all loads, beta^2 + iota^2 < beta^2 eta^2.",
         ),
         Statement(
-            id="twist-poynting", section=SECTION, label="-",
+            id="twist-poynting",
+            section=SECTION,
+            label="-",
             claim="A couple about d_3 changes the length of a chiral rod; it elongates the rod "
             "exactly if -iota M_3 > 0, and shortens it if iota M_3 > 0.",
             latex=r"-\iota M_3 > 0 \iff v_3 - 1 > 0, \quad \iota M_3 > 0 \iff 1 - v_3 > 0",
@@ -237,7 +284,7 @@ def _length() -> tuple[Statement, ...]:
                 Iff(positive(-iota * M[3]), positive(v[3] - 1)),
                 Iff(positive(iota * M[3]), positive(1 - v[3])),
             ),
-            check=rules.OnTwisted(),
+            check=states.OnTwisted(),
             note="For configurations with v_3 > 0, as the theory requires throughout.",
         ),
     )
@@ -250,14 +297,18 @@ def _limits() -> tuple[Statement, ...]:
     root = _D ** sp.Rational(-1, 2)
     return (
         Statement(
-            id="twist-limit-u3", section=SECTION, label="-",
+            id="twist-limit-u3",
+            section=SECTION,
+            label="-",
             claim="Twisted state: the twist for an infinite couple.",
             latex=rf"\lim_{{M_3 \to \pm\infty}} u_3 = \pm\eta({_D_TEX})^{{-1/2}}",
             printed=Every(equal(at(1, u[3]), eta * root), equal(at(-1, u[3]), -eta * root)),
-            check=rules.TWIST_LIMITS,
+            check=states.TWIST_LIMITS,
         ),
         Statement(
-            id="twist-limit-v3", section=SECTION, label="-",
+            id="twist-limit-v3",
+            section=SECTION,
+            label="-",
             claim="Twisted state: the dilatation strain less one for an infinite couple.",
             latex=r"\lim_{M_3 \to \pm\infty} (v_3 - 1) = \mp\frac{\iota}{\eta}"
             rf"({_D_TEX})^{{-1/2}}",
@@ -265,7 +316,7 @@ def _limits() -> tuple[Statement, ...]:
                 equal(at(1, v[3] - 1), -iota / eta * root),
                 equal(at(-1, v[3] - 1), iota / eta * root),
             ),
-            check=rules.TWIST_LIMITS,
+            check=states.TWIST_LIMITS,
             note="Nonzero, as the paper says of it, only for a chiral rod (iota != 0).",
         ),
     )

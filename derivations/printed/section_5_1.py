@@ -199,42 +199,62 @@ def _laws() -> tuple[Statement, ...]:
 
     return (
         Statement(
-            id="strain-rate-u", section=SECTION, label="eq:implicitdiss", introduces=True,
+            id="strain-rate-u",
+            section=SECTION,
+            label="eq:implicitdiss",
+            introduces=True,
             claim="Strain-rate law for u.",
             latex=r"\mathsf u + \alpha \partial_t \mathsf u = \frac{\partial W^*}"
             r"{\partial \mathsf m}(\mathsf m, \mathsf n)",
-            printed=equal(u[k] + time * u_t[k], Partial(Wstar(m, n), m[k])), check=first,
+            printed=equal(u[k] + time * u_t[k], Partial(Wstar(m, n), m[k])),
+            check=first,
             reading="alpha is a relaxation time here, and not the length alpha of Section 3.1, "
             "which W* contains as well: with that one the two terms on the left differ in "
             "dimension.",
         ),
         Statement(
-            id="strain-rate-v", section=SECTION, label="eq:implicitdiss", introduces=True,
+            id="strain-rate-v",
+            section=SECTION,
+            label="eq:implicitdiss",
+            introduces=True,
             claim="Strain-rate law for v.",
             latex=r"\mathsf v + \alpha \partial_t \mathsf v = \frac{\partial W^*}"
             r"{\partial \mathsf n}(\mathsf m, \mathsf n)",
-            printed=ahead(0), correction=ahead(1), check=first,
+            printed=ahead(0),
+            correction=ahead(1),
+            check=first,
             note="The gradient of W* is (v_1, v_2, v_3 - 1). As printed, an unloaded rod at rest "
             "would shrink to length zero. alpha is a time, as in the relation for u; a second time "
             "beta in its place, as the list of constants suggests, would break the second law "
             "(extra-strain-rate-two-times).",
         ),
         Statement(
-            id="kelvin-voigt-m", section=SECTION, label="eq:kelvinvoight", introduces=True,
+            id="kelvin-voigt-m",
+            section=SECTION,
+            label="eq:kelvinvoight",
+            introduces=True,
             claim="Kelvin-Voigt law for the contact couple.",
             latex=r"\mathsf m = \frac{\partial W}{\partial \mathsf u}(\mathsf u, \mathsf v)"
             r" + \mu \partial_t \mathsf u",
-            printed=equal(m[k], Partial(W(u, v), u[k]) + viscosity_m * u_t[k]), check=second,
+            printed=equal(m[k], Partial(W(u, v), u[k]) + viscosity_m * u_t[k]),
+            check=second,
         ),
         Statement(
-            id="kelvin-voigt-n", section=SECTION, label="eq:kelvinvoight", introduces=True,
+            id="kelvin-voigt-n",
+            section=SECTION,
+            label="eq:kelvinvoight",
+            introduces=True,
             claim="Kelvin-Voigt law for the contact force.",
             latex=r"\mathsf n = \frac{\partial W}{\partial \mathsf v}(\mathsf u, \mathsf v)"
             r" + \nu \partial_t \mathsf v",
-            printed=equal(n[k], Partial(W(u, v), v[k]) + viscosity_n * v_t[k]), check=second,
+            printed=equal(n[k], Partial(W(u, v), v[k]) + viscosity_n * v_t[k]),
+            check=second,
         ),
         Statement(
-            id="dissipation-constants", section=SECTION, label="-", introduces=True,
+            id="dissipation-constants",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="Ranges of the constants of the two laws.",
             latex=r"\alpha, \beta, \mu, \nu \geq 0",
             printed=Every(

@@ -16,7 +16,7 @@ from rodproof.derivations.notation import (
     v,
 )
 from rodproof.derivations.proof import dna as rules
-from rodproof.derivations.proof.couple_checks import exactly
+from rodproof.derivations.proof.exactly import exactly
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
@@ -68,7 +68,9 @@ def _dsdna() -> tuple[Statement, ...]:
     )  # fmt: skip
     return (
         Statement(
-            id="dna-force-range", section=SECTION, label="-",
+            id="dna-force-range",
+            section=SECTION,
+            label="-",
             claim="With these constants the model describes dsDNA up to tensions of about 50 pN.",
             latex=r"\lim_{N \to 0} \frac{v_3 - 1}{N} = \frac{447}{442100\ \mathrm{pN}}, \quad"
             r" \lim_{N \to 0} \frac{u_3}{N} = \frac{70}{442100\ \mathrm{pN\,nm}}",
@@ -84,13 +86,23 @@ def _dsdna() -> tuple[Statement, ...]:
         ),
         *(
             Statement(
-                id=name, section=SECTION, label="eq:DNA", introduces=True, claim=claim,
-                latex=latex, printed=equal(modulus, value), check=rules.Datum(which), note=note,
+                id=name,
+                section=SECTION,
+                label="eq:DNA",
+                introduces=True,
+                claim=claim,
+                latex=latex,
+                printed=equal(modulus, value),
+                check=rules.Datum(which),
+                note=note,
             )
             for name, which, claim, modulus, value, latex, note in rows
         ),
         Statement(
-            id="dna-unshearable", section=SECTION, label="-", introduces=True,
+            id="dna-unshearable",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="The rod is taken to be unshearable.",
             latex=r"v_1 = v_2 = 0 = \lim_{\zeta \to \infty} v_\mu",
             **exactly(
@@ -108,30 +120,41 @@ def _what_follows() -> tuple[Statement, ...]:
     gap = gamma**2 * (beta**2 * eta**2 - iota**2)
     return (
         Statement(
-            id="dna-constants-given", section=SECTION, label="-",
+            id="dna-constants-given",
+            section=SECTION,
+            label="-",
             claim="The values for dsDNA give the constants alpha, beta, gamma, iota, eta and p.",
-            latex=r"\alpha, \beta, \gamma, \iota, \eta, p \ \text{given by \eqref{eq:DNA}}",
-            printed=sp.Tuple(alpha, beta, gamma, iota, eta, p), check=rules.Determined(),
+            latex=r"\alpha, \beta, \gamma, \iota, \eta, p \ \text{given by (eq:DNA)}",
+            printed=sp.Tuple(alpha, beta, gamma, iota, eta, p),
+            check=rules.Determined(),
             correction=moduli,
             note="Four equations for six constants: they fix the four moduli and none of the "
             "constants. p does not occur, and gamma is fixed by a strain limit only.",
         ),
         Statement(
-            id="extra-dna-hypothesis", section=SECTION, label="-",
+            id="extra-dna-hypothesis",
+            section=SECTION,
+            label="-",
             claim="The values for dsDNA meet the coupling hypothesis, whatever gamma and p.",
             latex=r"\gamma_D^2(\beta_D^2\eta_D^2 - \iota_D^2) = 442100\ \mathrm{pN^2\,nm^2} > 0",
-            printed=chain(gap, "=", 442100 * pN**2 * nm**2, ">", 0), check=Identity(rules.DSDNA),
+            printed=chain(gap, "=", 442100 * pN**2 * nm**2, ">", 0),
+            check=Identity(rules.DSDNA),
             note="The hypothesis printed in Section 3.1, alpha^2 beta^2 - iota^2 > 0, compares "
             "nm^4 with nm^2.",
         ),
         Statement(
-            id="extra-dna-overwinds", section=SECTION, label="-",
+            id="extra-dna-overwinds",
+            section=SECTION,
+            label="-",
             claim="The rod with these constants overwinds under every tension, as dsDNA does.",
-            latex=r"N > 0 \implies u_3 > 0", **exactly(Identity(rules.DSDNA), positive(u[3])),
+            latex=r"N > 0 \implies u_3 > 0",
+            **exactly(Identity(rules.DSDNA), positive(u[3])),
             note="For a right-handed molecule u_3 > 0 adds turns. It is iota < 0 that does it.",
         ),
         Statement(
-            id="extra-dna-orientation", section=SECTION, label="-",
+            id="extra-dna-orientation",
+            section=SECTION,
+            label="-",
             claim="v_3 > 0 under all loads, by the paper's condition, if and only if gamma is "
             "below 442100/447 pN (989 pN).",
             latex=r"1 + \frac{\iota_D^2}{\beta_D^2} < \eta_D^2 \iff \gamma_D < \tfrac{442100}{447}"

@@ -8,7 +8,7 @@ from r(s) and the directors.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import sympy as sp
@@ -18,7 +18,6 @@ from rodproof.derivations.notation import Chain, Every, Partial, W, Wstar, m, n,
 from rodproof.derivations.proof import equilibrium as numeric
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.domains import (
-    FUNCTIONS,
     NO_LOAD,
     ON_LOADS,
     ON_STRAINS,
@@ -70,8 +69,7 @@ _MASS = sp.Rational(5, 4)
 def _sample_motion(seed: int) -> Point:
     """Generic rates; the moments are those of the point masses of the second route."""
     names = (*theory.spin, *theory.spin_t, *theory.acceleration, *LOADS, *STRAINS)
-    number = lambda k: sp.Rational((31 * k + 17 * seed) % 53 - 26, 19)  # noqa: E731
-    values = {x: number(k) for k, x in enumerate(names, 3)}
+    values = {x: sp.Rational((31 * k + 17 * seed) % 53 - 26, 19) for k, x in enumerate(names, 3)}
     a, b = _HALF
     moments = {theory.rho_A: 4 * _MASS, theory.J1: 2 * _MASS * b**2, theory.J2: 2 * _MASS * a**2}
     return values | moments | dict.fromkeys((theory.S1, theory.S2, theory.J12), sp.Integer(0))
@@ -108,12 +106,18 @@ def _masses(point: Point, ctx: Any) -> Values:
     def place(at: Any) -> list[Any]:
         return rows(at, 3)
 
+    def arm(k: int, at: Any) -> list[Any]:
+        return arms(at)[k]
+
+    def position(k: int, at: Any) -> list[Any]:
+        return [p + q for p, q in zip(place(at), arm(k, at), strict=True)]
+
     mass, zero = ctx.mpf(int(_MASS.p)) / int(_MASS.q), ctx.mpf(0)
 
     def arm_momentum(at: Any) -> list[Any]:
         total = [zero] * 3
         for k in range(4):
-            turned = numeric.cross(arms(at)[k], numeric.slope(lambda x, k=k: arms(x)[k], at, ctx))
+            turned = numeric.cross(arms(at)[k], numeric.slope(partial(arm, k), at, ctx))
             total = [x + mass * y for x, y in zip(total, turned, strict=True)]
         return total
 
@@ -121,14 +125,16 @@ def _masses(point: Point, ctx: Any) -> Values:
         """The momentum, and the angular momentum about the origin."""
         total = [zero] * 6
         for k in range(4):
-            point_ = lambda x, k=k: [p + q for p, q in zip(place(x), arms(x)[k], strict=True)]  # noqa: E731
-            moved = numeric.slope(point_, at, ctx)
-            both = (*moved, *numeric.cross(point_(at), moved))
+            moved = numeric.slope(partial(position, k), at, ctx)
+            both = (*moved, *numeric.cross(position(k, at), moved))
             total = [x + mass * y for x, y in zip(total, both, strict=True)]
         return total
 
     directors = frame(zero)
-    inside = lambda vector: [numeric.dot(vector, d, ctx) for d in directors]  # noqa: E731
+
+    def inside(vector: list[Any]) -> list[Any]:
+        return [numeric.dot(vector, d, ctx) for d in directors]
+
     u_like, _ = numeric.strains_of(place, frame, zero, ctx)  # the angular velocity: t for s
     force = [law[x] for x in LOADS[3:]]
     tangent = [law[x] for x in STRAINS[3:]]
@@ -154,8 +160,7 @@ MOVING_ANYWHERE = _moving({theory.J12: sp.Integer(0)})
 # -- viscous laws -------------------------------------------------------------------------------
 
 u_t, v_t = (sp.IndexedBase(name, real=True) for name in ("u_t", "v_t"))
-_STILL = {**dict.fromkeys(RATES, sp.Integer(0)), time: sp.Integer(1),
-          viscosity_m: sp.Integer(1), viscosity_n: sp.Integer(1)}  # fmt: skip
+_STILL = dict.fromkeys(RATES, sp.Integer(0))
 
 
 def _rates(seed: int) -> Point:
@@ -207,7 +212,7 @@ STRAIN_RATE = Meaning(
     sample=lambda seed: {**sampling.with_loads(seed), **_rates(seed)},
     simple=lambda: tuple({**p, **_STILL} for p in sampling.simple_loads()),
     components=dict(zip(STRAINS, (*_ahead[:5], 1 + _ahead[5]), strict=True)),
-    functions=FUNCTIONS, positive=ON_LOADS.positive, edges=(NO_LOAD,),
+    functions=ON_LOADS.functions, positive=ON_LOADS.positive, edges=(NO_LOAD,),
     route=_strain_rate_route, route_name="loads by root-finding at eps + alpha eps_t",
 )  # fmt: skip
 
@@ -220,7 +225,7 @@ KELVIN_VOIGT = Meaning(
         **dict(zip(LOADS, dissipation.kelvin_voigt(), strict=True)),
         dissipated_kv: dissipation.kelvin_voigt_rate(),
     },
-    functions=FUNCTIONS, positive=ON_STRAINS.positive,
+    functions=ON_STRAINS.functions, positive=ON_STRAINS.positive,
     route=_kelvin_voigt_route, route_name="numerical gradients of W and of the loss",
 )  # fmt: skip
 

@@ -16,7 +16,8 @@ import sympy as sp
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.notation import Every
 from rodproof.derivations.proof import equilibrium as numeric
-from rodproof.derivations.proof.couple import HALF_ANGLE, on_all, t
+from rodproof.derivations.proof.couple import HALF_ANGLE, on_all
+from rodproof.derivations.proof.couple_route import t
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.records import Confirmation, Decision
@@ -44,11 +45,10 @@ _ROUTE = "loads of a straight sheared rod at both ends, from r(s) and the direct
 def _sample(seed: int) -> Point:
     names = (*theory.origin, *theory.first_couple, *theory.any_force, *theory.last_place,
              euler.N, t, v3, euler.v_scalar)  # fmt: skip
-    number = lambda k: sp.Rational((23 * k + 13 * seed) % 37 + 3, 41)  # noqa: E731
     # eta^2 - iota^2/beta^2 > zeta^2 and a moderate tilt, so that a sheared state exists
     rod = (1, sp.Rational(9, 7), 1, sp.Rational(1, 5), sp.Rational(7, 5), sp.Rational(1, 3),
            sp.Rational(17, 9))  # fmt: skip
-    values = {x: number(k) for k, x in enumerate(names)}
+    values = {x: sp.Rational((23 * k + 13 * seed) % 37 + 3, 41) for k, x in enumerate(names)}
     known = dict(zip(CONSTANTS, map(sp.sympify, rod), strict=True))
     return {**values, **known, t: sp.Rational(2 + seed, 9)}
 
@@ -66,7 +66,10 @@ def _measured(seed: int) -> dict[sp.Basic, Any]:
     place, rate, tilt = sp.symbols("stretch twist tilt", positive=True)
     values = {place: stretch, rate: twist, tilt: angle}
     start = [c[x] for x in theory.origin]
-    line = lambda s: [start[0], start[1], start[2] + stretch * s]  # noqa: E731
+
+    def line(s: Any) -> list[Any]:
+        return [start[0], start[1], start[2] + stretch * s]
+
     frame = numeric.frame(euler_frame(sp.Integer(0), tilt, rate * at), at, values, ctx)
     law = {x: point[x] for x in CONSTANTS}
     first, _ = numeric.contact(line, frame, law, ctx.mpf(0), ctx)

@@ -154,4 +154,3 @@ def center_line() -> Vector:
     a, b, c = tangent(helix())
     line = sp.ImmutableMatrix([sp.integrate(a, phi) / phi_s, sp.integrate(b, phi) / phi_s, c * s])
     return Vector(line.subs(phi, phi_s * s))
-

@@ -11,6 +11,7 @@ from rodproof.derivations.notation import equal, u
 from rodproof.derivations.proof import couple as domains
 from rodproof.derivations.proof.couple import OfState
 from rodproof.derivations.proof.couple_checks import CIRCLES, HELICES, TWISTED
+from rodproof.derivations.proof.couple_route import torsion
 from rodproof.derivations.symbols import v3
 from rodproof.derivations.theory import couple, euler
 from rodproof.derivations.theory.euler import M1, phi_s
@@ -56,6 +57,5 @@ def test_shape_of_the_centre_line_agrees_with_its_closed_form() -> None:
 def test_handedness_is_that_of_the_twisting_couple() -> None:
     for sign in (1, -1):
         shape = domains.shaped(sign)
-        torsion = shape.components[domains.torsion]
-        assert Field(shape.positive).sign(torsion) == -sign
+        assert Field(shape.positive).sign(shape.components[torsion]) == -sign
         assert Field(shape.positive).sign(shape.components[euler.M3]) == -sign
