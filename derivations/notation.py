@@ -93,7 +93,7 @@ class Cross(sp.Function):
     nargs = 2
 
     def _latex(self, printer: object, exp: str | None = None) -> str:
-        return r" \times ".join(printer._print(a) for a in self.args)  # type: ignore[attr-defined]
+        return r" \times ".join(_factor(printer, a) for a in self.args)
 
 
 class Dot(sp.Function):
@@ -102,7 +102,7 @@ class Dot(sp.Function):
     nargs = 2
 
     def _latex(self, printer: object, exp: str | None = None) -> str:
-        inner = r" \cdot ".join(printer._print(a) for a in self.args)  # type: ignore[attr-defined]
+        inner = r" \cdot ".join(_factor(printer, a) for a in self.args)
         return inner if exp is None else rf"({inner})^{{{exp}}}"
 
 
@@ -125,8 +125,13 @@ class LimitOf(sp.Expr):
     """A limit as printed, `LimitOf(f, N, oo)`; the target may be -oo or a number."""
 
     def _latex(self, printer: object) -> str:
-        f, x, a = (printer._print(arg) for arg in self.args)  # type: ignore[attr-defined]
-        return rf"\lim_{{{x} \to {a}}} {f}"
+        x, a = (printer._print(arg) for arg in self.args[1:])  # type: ignore[attr-defined]
+        return rf"\lim_{{{x} \to {a}}} {_factor(printer, self.args[0])}"
+
+
+def _factor(printer: object, arg: sp.Basic) -> str:
+    text = str(printer._print(arg))  # type: ignore[attr-defined]
+    return rf"\left({text}\right)" if isinstance(arg, sp.Add | Cross) else text
 
 
 def _applied(printer: object, name: str, args: tuple[sp.Basic, ...], exp: str | None) -> str:
