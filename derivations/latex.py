@@ -128,7 +128,7 @@ class _Printer(LatexPrinter):
     def _print_Mul(self, expr: sp.Mul) -> str:
         number, rest = expr.as_coeff_Mul()
         if number.could_extract_minus_sign():
-            return "- " + self._print(-expr)
+            return f"- {self._print(-expr)}"
         integrals = [f for f in sp.Mul.make_args(rest) if isinstance(f, sp.Integral)]
         if integrals:
             scale = number * sp.Mul(*(f for f in sp.Mul.make_args(rest) if f not in integrals))

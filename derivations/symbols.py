@@ -50,7 +50,10 @@ class Hypothesis:
 #: What the constants must satisfy. The coupling condition is the derived one; the paper prints
 #: alpha^2 beta^2 - iota^2 > 0 in its place (statement ``constants-hypothesis``).
 HYPOTHESES: tuple[Hypothesis, ...] = (
-    *(Hypothesis(f"{c} > 0", c, f"{c} must be positive") for c in (alpha, beta, gamma, zeta, eta, p)),
+    *(
+        Hypothesis(f"{c} > 0", c, f"{c} must be positive")
+        for c in (alpha, beta, gamma, zeta, eta, p)
+    ),
     Hypothesis(
         "beta^2 eta^2 - iota^2 > 0",
         chiral_gap,

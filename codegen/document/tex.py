@@ -127,7 +127,7 @@ def mathematics(text: str) -> str:
     text = re.sub(r"(?<![A-Za-z\\])(" + "|".join(_GREEK) + r")(?![A-Za-z])", r"\\\1 ", text)
     text = text.replace("\\eps ", "\\varepsilon ")
     for plain, tex in _SIGNS:
-        text = re.sub(plain, lambda _, tex=tex: tex, text)
+        text = re.sub(plain, tex.replace("\\", r"\\"), text)
     return re.sub(r"(?<![A-Za-z\\])([unvmMN])([123])(?![0-9])", r"\1_\2", text)
 
 

@@ -167,13 +167,14 @@ def _constants_and_forms() -> tuple[Statement, ...]:
         Statement(
             id="constants-positive", section=SECTION, label="-", introduces=True,
             claim="Ranges of the seven constants of the rod.",
-            latex=r"p, \alpha, \beta, \gamma, \zeta, \eta \in (0, \infty), \quad \iota \in \mathbb R",
+            latex=r"p, \alpha, \beta, \gamma, \zeta, \eta \in (0, \infty), \quad "
+            r"\iota \in \mathbb R",
             printed=Every(*(positive(c) for c in (p, alpha, beta, gamma, zeta, eta))),
             check=rules.CONSTANT_RANGES,
         ),
         Statement(
             id="constants-hypothesis", section=SECTION, label="-",
-            claim="Inequality on the constants that makes the two quadratic forms positive definite.",
+            claim="Inequality on the constants that makes both quadratic forms positive definite.",
             latex=r"\alpha^2 \beta^2 - \iota^2 > 0",
             printed=positive(alpha**2 * beta**2 - iota**2),
             check=rules.COUPLING, correction=positive(_D),
@@ -184,7 +185,8 @@ def _constants_and_forms() -> tuple[Statement, ...]:
         Statement(
             id="q-forms-positive-definite", section=SECTION, label="-",
             claim="Under the printed inequality both quadratic forms are positive definite.",
-            latex=r"\begin{aligned} &\alpha^2\beta^2 - \iota^2 > 0 \implies \text{positive definite:}\\"
+            latex=r"\begin{aligned} &\alpha^2\beta^2 - \iota^2 > 0 "
+            r"\implies \text{positive definite:}\\"
             rf"&Q = {q_tex}\\ &Q^* = {qstar_tex}\end{{aligned}}",
             printed=definite(alpha**2 * beta**2 - iota**2, v),
             check=rules.FORMS, correction=definite(_D, n),
@@ -297,7 +299,7 @@ def _complementary_energy() -> tuple[Statement, ...]:
     return (
         Statement(
             id="wstar-gradient", section=SECTION, label="-",
-            claim="The strains given by the relations are the gradient of the complementary energy.",
+            claim="The strains of the relations are the gradient of the complementary energy.",
             latex=_GRADIENT_TEX % (r"u_1 \\ u_2 \\ u_3", "W^*", "m")
             + r", \quad " + _GRADIENT_TEX % (r"v_1 \\ v_2 \\ v_3 - 1", "W^*", "n"),
             printed=gradient, check=Identity(rules.LAW_ON_LOADS),
@@ -399,7 +401,8 @@ def _dimensions() -> tuple[Statement, ...]:
         Statement(
             id="constants-dimensions", section=SECTION, label="-",
             claim="alpha, beta, iota scale like length, gamma like force; zeta, eta are numbers.",
-            latex=r"[\alpha] = [\beta] = [\iota] = L, \quad [\gamma] = F, \quad [\zeta] = [\eta] = 1",
+            latex=r"[\alpha] = [\beta] = [\iota] = L, \quad [\gamma] = F, "
+            r"\quad [\zeta] = [\eta] = 1",
             printed=Every(
                 *(equal(dim(c), length) for c in (alpha, beta, iota)),
                 equal(dim(gamma), force), equal(dim(zeta), 1), equal(dim(eta), 1),
@@ -437,12 +440,14 @@ def _small_strain() -> tuple[Statement, ...]:
 
     return (
         Statement(
-            id="small-strain-m-mu", section=SECTION, label="-", claim="Leading-order bending couple.",
+            id="small-strain-m-mu", section=SECTION, label="-",
+            claim="Leading-order bending couple.",
             latex=r"m_\mu = \gamma\alpha^2 u_\mu",
             printed=equal(m[mu], gamma * alpha**2 * u[mu]), check=near,
         ),
         Statement(
-            id="small-strain-m-3", section=SECTION, label="-", claim="Leading-order twisting couple.",
+            id="small-strain-m-3", section=SECTION, label="-",
+            claim="Leading-order twisting couple.",
             latex=r"m_3 = \gamma\beta^2 u_3 + \gamma\iota(v_3 - 1)",
             printed=equal(m[3], gamma * beta**2 * u[3] + gamma * iota * (v[3] - 1)), check=near,
         ),
@@ -470,8 +475,8 @@ def _small_strain() -> tuple[Statement, ...]:
                 equal(Partial(n[3], v[3]), gamma * eta**2),
             ),
             check=near,
-            reading="A modulus is the derivative of a load by its own strain with the other strains "
-            "held fixed. With the other loads held at zero, as in a tension or torsion test, a "
+            reading="A modulus is the derivative of a load by its own strain with the others held "
+            "fixed. With the other loads held at zero, as in a tension or torsion test, a "
             "chiral rod shows gamma(eta^2 - iota^2/beta^2) in tension and gamma(beta^2 - "
             "iota^2/eta^2) in torsion.",
         ),
@@ -479,7 +484,8 @@ def _small_strain() -> tuple[Statement, ...]:
             id="chirality-constant", section=SECTION, label="-",
             claim="gamma iota couples twist to extension, and its sign is the rod's chirality.",
             latex=r"\frac{\partial m_3}{\partial v_3} = \frac{\partial n_3}{\partial u_3} = "
-            r"\gamma\iota, \quad Q_{\text{mirror}} = Q - 4\iota u_3(v_3 - 1) = Q|_{\iota \to -\iota}",
+            r"\gamma\iota, \quad Q_{\text{mirror}} = Q - 4\iota u_3(v_3 - 1) "
+            r"= Q|_{\iota \to -\iota}",
             printed=Every(
                 equal(Partial(m[3], v[3]), gamma * iota),
                 equal(Partial(n[3], u[3]), gamma * iota),

@@ -153,7 +153,7 @@ FORMS = DefiniteForms(
 def _greek(printed: sp.Basic) -> bool:
     K = theory.stiffness_at_rest()
     plain = [k for k in (1, 2, 3) if K[k - 1, k - 1] == K[0, 0] and K[k + 2, k + 2] == K[3, 3]]
-    return printed == sp.Tuple(*plain)
+    return bool(printed == sp.Tuple(*plain))
 
 
 GREEK_RANGE = Formalised(_greek, "the indices with the same bending and shearing stiffness")
@@ -273,7 +273,9 @@ def _sample_radius(seed: int) -> Point:
 ON_RADII = Meaning(
     name="all load radii", free=(*CONSTANTS, y), components={x: theory.radial_law().strain},
     sample=_sample_radius, positive=(chiral_gap,),
-    simple=lambda: tuple({**c, y: sp.Integer(k)} for c in sampling.simple_constants() for k in (1, 3)),
+    simple=lambda: tuple(
+        {**c, y: sp.Integer(k)} for c in sampling.simple_constants() for k in (1, 3)
+    ),
     route=_radius_route, route_name="strain radius by integrating its slope in the load",
 )
 

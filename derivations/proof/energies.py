@@ -111,7 +111,7 @@ class Elementary:
     power: sp.Rational
 
     def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
-        (_, stored), (_, complementary) = (claim.sides for claim in printed.args)  # type: ignore[attr-defined]
+        (_, stored), (_, complementary) = (claim.sides for claim in printed.args)
         field = Field((1 - x, 1 + x))
         right = (
             field.equal(sp.diff(stored, x), _LOAD.subs(p, self.power))
@@ -129,6 +129,6 @@ class Elementary:
             for claim, integral in zip(
                 printed.args, (_STORED_INTEGRAL, _COMPLEMENTARY_INTEGRAL), strict=True
             ):
-                a, b = evaluate(claim.sides[1]), evaluate(integral)  # type: ignore[attr-defined]
+                a, b = evaluate(claim.sides[1]), evaluate(integral)
                 worst = max(worst, float(abs(a - b) / abs(b)))
         return Confirmation(worst, POINTS, DIGITS, "quadrature of the defining integrals")

@@ -37,7 +37,7 @@ class Meaning:
     sample: Callable[[int], Point]
     simple: Callable[[], tuple[Point, ...]]
     components: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    functions: Mapping[type, Callable[..., sp.Expr]] = field(default_factory=dict)
+    functions: Mapping[Any, Callable[..., sp.Expr]] = field(default_factory=dict)
     positive: tuple[sp.Expr, ...] = ()
     edges: tuple[Mapping[sp.Symbol, sp.Expr], ...] = ()
     route: Callable[[Point, Any], Values] | None = None

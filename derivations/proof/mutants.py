@@ -121,7 +121,8 @@ def _relations(node: Chain) -> Iterator[tuple[str, sp.Basic]]:
     for i, side in enumerate(sides):
         if side.is_number:
             continue
-        for change, other in ((f"{side} with the sign changed", -side), (f"{side} doubled", 2 * side)):
+        twins = ((f"{side} with the sign changed", -side), (f"{side} doubled", 2 * side))
+        for change, other in twins:
             yield change, Chain(sp.Tuple(*sides[:i], other, *sides[i + 1 :]), node.args[1])
 
 

@@ -154,7 +154,8 @@ def _edge_failure(link: tuple[sp.Expr, str, sp.Expr], meaning: Meaning) -> Decis
             sides = [sp.nan, sp.nan]
         where = tuple((str(k), str(v)) for k, v in edge.items())
         undefined = any(_undefined(side, edge, meaning) for side in (link[0], link[2]))
-        if undefined or any(side.has(sp.nan, sp.zoo, sp.oo) or _power_of_zero(side) for side in sides):
+        infinite = any(side.has(sp.nan, sp.zoo, sp.oo) or _power_of_zero(side) for side in sides)
+        if undefined or infinite:
             found = Counterexample(where, *(str(s) for s in sides))
             return Decision(False, True, "undefined on the edge of the domain", found)
         if sp.expand(sides[0] - sides[1]) != 0 and not Field().equal(*sides):
@@ -219,7 +220,8 @@ def counterexample(
     link: tuple[sp.Expr, str, sp.Expr], meaning: Meaning
 ) -> Counterexample | None:
     """A small point of the domain with exact, different values: rational ones if there are any."""
-    left, relation, right = (meaning.interpret(s) if isinstance(s, sp.Basic) else s for s in link)
+    relation = link[1]
+    left, right = (meaning.interpret(side) for side in (link[0], link[2]))
     fallback = None
     for point in meaning.simple():
         a, b = left.subs(point), right.subs(point)

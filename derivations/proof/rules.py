@@ -132,7 +132,7 @@ class EllipsoidBound:
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
         """The supremum as the largest eigenvalue of functional^2 relative to K."""
         (claim,) = claims(printed)
-        functional, bound = claim.sides  # type: ignore[attr-defined]
+        functional, bound = claim.sides
         square = self._matrix(functional**2)
         assert square is not None
         ctx = context(DIGITS + 15)
@@ -218,12 +218,14 @@ class Supremum:
             )
         except OutOfReach:
             return _REJECTED
-        return Decision(True, True, "sign certificate, and the bound is the limit") if proved else _REJECTED
+        if not proved:
+            return _REJECTED
+        return Decision(True, True, "sign certificate, and the bound is the limit")
 
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
         """At loads 10^k times a generic one the gap to the bound must close like (gamma/y)^p."""
         (claim,) = claims(printed)
-        value, bound = claim.sides  # type: ignore[attr-defined]
+        value, bound = claim.sides
         ctx = context(DIGITS + 15)
         worst = 0.0
         for seed in range(ROUTE_POINTS):
@@ -307,9 +309,11 @@ class DefiniteForms:
             return _REJECTED
         hypothesis, conclusion = claim.args
         stated = conclusion.args if isinstance(conclusion, Every) else (conclusion,)
-        if len(stated) != len(self.forms) or not all(isinstance(s, PositiveDefinite) for s in stated):
+        definite = all(isinstance(s, PositiveDefinite) for s in stated)
+        if len(stated) != len(self.forms) or not definite:
             return _REJECTED
-        facts = [_excess(h) for h in (hypothesis.args if isinstance(hypothesis, Every) else (hypothesis,))]
+        hypotheses = hypothesis.args if isinstance(hypothesis, Every) else (hypothesis,)
+        facts = [_excess(h) for h in hypotheses]
         if explain:
             for point in self.candidates():
                 failure = self._failure(point, facts)
@@ -326,7 +330,9 @@ class DefiniteForms:
                 return _REJECTED
         return Decision(True, True, "leading minors positive by factorisation")
 
-    def _failure(self, point: dict[sp.Symbol, sp.Expr], facts: list[sp.Expr]) -> Counterexample | None:
+    def _failure(
+        self, point: dict[sp.Symbol, sp.Expr], facts: list[sp.Expr]
+    ) -> Counterexample | None:
         if not all(fact.subs(point) > 0 for fact in facts):
             return None
         for form, variables, rest in self.forms:
@@ -347,11 +353,13 @@ class DefiniteForms:
 
 
 def _excess(claim: sp.Basic) -> sp.Expr:
-    left, relation, right = next(iter(claim.links()))  # type: ignore[attr-defined]
+    left, relation, right = next(iter(claim.links()))
     return left - right if relation == ">" else right - left
 
 
-def _form_matrix(form: sp.Expr, variables: tuple[sp.Symbol, ...], rest: tuple[sp.Expr, ...]) -> sp.Matrix:
+def _form_matrix(
+    form: sp.Expr, variables: tuple[sp.Symbol, ...], rest: tuple[sp.Expr, ...]
+) -> sp.Matrix:
     shifted = form.subs({s: s + r for s, r in zip(variables, rest, strict=True)}, simultaneous=True)
     return sp.hessian(shifted, variables) / 2
 

@@ -208,8 +208,9 @@ def stiffness_structure() -> sp.ImmutableMatrix:
 
 @cache
 def compliance_structure() -> sp.ImmutableMatrix:
-    """(gamma^p + q)^{-1/p} (K^{-1} - q/(gamma^p + q) e e^T/Q*) with q = Q*^{p/2}, e = K^{-1} sigma."""
+    """(gamma^p + q)^{-1/p} (K^{-1} - q/(gamma^p + q) e e^T/Q*), q = Q*^{p/2}, e = K^{-1} sigma."""
     q, Qstar = dual_form() ** (p / 2), dual_form()
     e = compliance_at_rest() * sp.Matrix(LOADS)
     scale = gamma**p + q
-    return sp.ImmutableMatrix(scale ** (-1 / p) * (compliance_at_rest() - q / scale / Qstar * e * e.T))
+    rank_one = q / scale / Qstar * e * e.T
+    return sp.ImmutableMatrix(scale ** (-1 / p) * (compliance_at_rest() - rank_one))

@@ -30,13 +30,13 @@ VARIABLES: dict[sp.Symbol, tuple[int, int]] = {
 
 @cache
 def of_constants() -> dict[sp.Symbol, tuple[int, int]]:
-    """Dimensions of the constants: Q is a number, gamma^2 has the dimension of Q*, p is a number."""
+    """Dimensions of the constants: Q and p are numbers, gamma^2 has the dimension of Q*."""
     unknown = {c: sp.symbols(f"length_{c} force_{c}") for c in CONSTANTS}
     equations: list[sp.Expr] = []
 
     def monomial(powers: dict[sp.Symbol, int]) -> tuple[sp.Expr, sp.Expr]:
         parts = [(k, VARIABLES.get(s) or unknown[s]) for s, k in powers.items()]
-        return tuple(sp.Add(*(k * d[i] for k, d in parts)) for i in (0, 1))  # type: ignore[return-value]
+        return tuple(sp.Add(*(k * d[i] for k, d in parts)) for i in (0, 1))
 
     form = sp.Poly(sp.expand(quadratic_form()), *CONSTANTS, *STRAINS)
     for monom in form.monoms():
@@ -66,5 +66,5 @@ def dimension(expr: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
             continue
         if base not in table:
             raise ValueError(f"{base} has no known dimension")
-        total = tuple(a + exponent * b for a, b in zip(total, table[base], strict=True))  # type: ignore[assignment]
+        total = tuple(a + exponent * b for a, b in zip(total, table[base], strict=True))
     return total
