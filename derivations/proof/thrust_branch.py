@@ -11,7 +11,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import Evaluator, context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
 from rodproof.derivations.notation import Chain, Iff, Implies, LimitOf, instances
@@ -83,7 +83,18 @@ def moduli_with(facts: tuple[sp.Expr, ...]) -> tuple[Point, ...]:
 
 
 def _value(expr: sp.Expr, point: Point) -> Any:
-    return domains.ON_COSINES.evaluator(context(30), point)(expr)
+    return _at(tuple(point.items()))(expr)
+
+
+@cache
+def _at(point: tuple[tuple[sp.Symbol, sp.Rational], ...]) -> Evaluator:
+    """One evaluator a point: what the broken twins share is evaluated once."""
+    return Evaluator(context(30), dict(point))
+
+
+@cache
+def _numbers(meaning: Meaning, seed: int) -> Evaluator:
+    return meaning.evaluator(context(DIGITS), meaning.sample(seed))
 
 
 @dataclass(frozen=True, eq=False)
@@ -298,6 +309,15 @@ class Determined(OnTheBranch):
         return super().decide(printed, explain=explain)
 
 
+@cache
+def taylor_of_thrust() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """N - N_thresh, dN/dtheta and half the second derivative, at theta = 0."""
+    thrust, at_zero = domains.BRANCH.components[N], {domains.angle: sp.Integer(0)}
+    slopes = thrust, *(sp.diff(thrust, domains.angle, k) / k for k in (1, 2))
+    start, slope, second = (q.subs(at_zero) for q in slopes)
+    return start - theory.threshold(), slope, second
+
+
 @dataclass(frozen=True, eq=False)
 class NearThreshold:
     """`lim_{theta -> 0} (N - N_thresh)/theta^2 = value`, by the first two derivatives at 0."""
@@ -308,16 +328,13 @@ class NearThreshold:
         left, right = printed.sides
         if left != LimitOf((N - domains.N_thresh) / domains.theta**2, domains.theta, sp.Integer(0)):
             return REJECTED
-        thrust, at_zero = domains.BRANCH.components[N], {domains.angle: sp.Integer(0)}
         value = domains.BRANCH.interpret(right)
-        wanted = sp.diff(thrust, domains.angle, 2).subs(at_zero) / 2
+        start, slope, wanted = taylor_of_thrust()
         for seed in range(POINTS):
-            evaluate = domains.BRANCH.evaluator(context(DIGITS), domains.BRANCH.sample(seed))
+            evaluate = _numbers(domains.BRANCH, seed)
             if not abs(evaluate(value) - evaluate(wanted)) < 1e-30:
                 return Decision(False, False, "not the second derivative")
         field = Field(domains.BRANCH_EXISTS)
-        start = thrust.subs(at_zero) - theory.threshold()
-        slope = sp.diff(thrust, domains.angle).subs(at_zero)
         if field.is_zero(start) and field.is_zero(slope) and field.equal(value, wanted):
             return Decision(True, True, "Taylor's theorem with exact derivatives")
         return Decision(None, False, f"{DIGITS} digits")
@@ -359,8 +376,7 @@ class SharpPowers:
                 if not (found.holds and found.exact):
                     return found
                 continue
-            numbers = [self.meaning.evaluator(context(30), self.meaning.sample(k))
-                       for k in range(POINTS)]  # fmt: skip
+            numbers = [_numbers(self.meaning, k) for k in range(POINTS)]
             if not all(_positive(e(right) - e(left)) for e in numbers):
                 return Decision(False, False, "fails at a generic point")
             if small == 0:
@@ -438,11 +454,11 @@ class ClosedAngle:
             return REJECTED
         cosine = right.args[0]
         for seed in range(POINTS):
-            evaluate = domains.AT_INFINITY.evaluator(context(DIGITS), self.sample(seed))
+            evaluate = _at(tuple(self.sample(seed).items()))
             value = evaluate(cosine)
             if getattr(value, "imag", 0) or not 0 < value < 1:
                 return Decision(False, False, "not a cosine")
-            if abs(evaluate(self.residual(cosine))) > 1e-30:
+            if abs(evaluate(self.residual(cosine))) > 1e-20:
                 return Decision(False, False, "not the root")
         field = Field(self.facts)
         if not field.is_zero(self.residual(cosine)) or field.sign(cosine) != 1:

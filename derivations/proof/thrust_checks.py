@@ -110,8 +110,10 @@ def narrowed_to(meaning: Meaning, quantity: sp.Expr) -> Meaning:
     def positive(point: Point) -> bool:
         return bool(meaning.evaluator(context(30), point)(quantity) > 0)
 
+    found = tuple(filter(positive, map(meaning.sample, range(9))))
+
     def sample(seed: int) -> Point:
-        return [point for point in map(meaning.sample, range(40)) if positive(point)][seed]
+        return found[seed % len(found)]
 
     return Meaning(
         name=f"{meaning.name}, {quantity} > 0", free=meaning.free, sample=sample,
