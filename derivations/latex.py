@@ -119,6 +119,8 @@ class _Printer(LatexPrinter):
 
     def _print_Pow(self, expr: sp.Pow) -> str:
         base, exponent = expr.as_base_exp()
+        if exponent.is_Integer and exponent > 0 and "'" in self._print(base) and base.is_Symbol:
+            return rf"\left({self._print(base)}\right)^{{{exponent}}}"
         if exponent.is_Rational or exponent.free_symbols != {p}:
             return str(super()._print_Pow(expr))
         if isinstance(base, sp.Function) and type(base).__name__ not in _STANDARD:

@@ -26,7 +26,9 @@ _MODULES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "orientation": (("3.2", "3.3"), ("orientation", "symmetry")),
     "monotonicity": (("3.4",), ("monotonicity",)),
     "euler": (("4", "4.1"), ("euler-angles", "reduced-equations")),
+    "thrust": (("4.2",), ("straight-states", "sheared-states")),
     "couple": (("4.3",), ("twisted-states", "helical-states")),
+    "dynamics": (("5.1", "5.2"), ("motion", "dissipation")),
 }
 
 
