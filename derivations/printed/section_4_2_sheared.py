@@ -19,23 +19,25 @@ from rodproof.derivations.notation import (
     v,
 )  # fmt: skip
 from rodproof.derivations.proof import thrust as domains
-from rodproof.derivations.proof.prover import Identity
-from rodproof.derivations.proof.thrust import N_thresh, d, fN, psi0, scalar_v, tangent, x_N
-from rodproof.derivations.proof.thrust_branch import (
-    ClosedAngle,
-    NearThreshold,
+from rodproof.derivations.proof.moduli import (
     Necessary,
-    OnTheBranch,
     SameSides,
     SameSign,
-    SharpPowers,
-    SharpSign,
-    angle_at_p2,
     b,
     c,
     condition_1_follows,
     condition_2_follows,
     kappa,
+)  # fmt: skip
+from rodproof.derivations.proof.prover import Identity
+from rodproof.derivations.proof.thrust import N_thresh, d, fN, psi0, scalar_v, tangent, x_N
+from rodproof.derivations.proof.thrust_branch import (
+    ClosedAngle,
+    NearThreshold,
+    OnTheBranch,
+    SharpPowers,
+    SharpSign,
+    angle_at_p2,
     limiting_angle,
 )  # fmt: skip
 from rodproof.derivations.proof.thrust_checks import (
@@ -174,7 +176,7 @@ def _conditions_on_the_moduli() -> tuple[Statement, ...]:
     pulled = domains.PUSHED_OR_PULLED[0]
 
     def derived(claim: sp.Basic) -> Equation:
-        left, right = claim.sides  # type: ignore[attr-defined]
+        left, right = claim.sides
         return Equation(pulled.interpret(left - right), pulled)
 
     return (

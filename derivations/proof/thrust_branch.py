@@ -1,9 +1,7 @@
-"""The checks of Section 4.2 for conditions on the moduli, the threshold and the angle."""
+"""The checks of Section 4.2 for the branch of sheared states, its threshold and its angle."""
 
 from __future__ import annotations
 
-import itertools
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -11,248 +9,33 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.exact.evaluate import Evaluator, context
+from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
-from rodproof.derivations.notation import Chain, Iff, Implies, LimitOf, instances
+from rodproof.derivations.notation import Chain, Implies, LimitOf, instances
 from rodproof.derivations.proof import thrust as domains
 from rodproof.derivations.proof.meaning import Meaning, Point
+from rodproof.derivations.proof.moduli import (
+    a,
+    at_point,
+    b,
+    c,
+    certified,
+    is_positive,
+    numbers,
+    sides_of,
+)
 from rodproof.derivations.proof.prover import DIGITS, POINTS, ROUTE_POINTS, Identity, claims
-from rodproof.derivations.proof.thrust_checks import REJECTED, Equation, InAllStates, all_of
+from rodproof.derivations.proof.thrust_checks import REJECTED, InAllStates
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import (
-    alpha,
-    beta,
-    chiral_gap,
-    eta,
-    gamma,
     iota,
     p,
     u3,
-    v3,
-    zeta,
 )  # fmt: skip
 from rodproof.derivations.theory import thrust as theory
+from rodproof.derivations.theory.frames import theta
 from rodproof.derivations.theory.thrust import N, x
-
-a, b, c = theory.shear_compliance(), theory.axial_compliance(), theory.softness()
-kappa = c / b  # (beta^2 eta^2 - iota^2)/(beta^2 zeta^2) - 1, derived as the ratio of compliances
-
-
-def certified(facts: tuple[sp.Expr, ...], expr: sp.Expr) -> int | None:
-    """The sign of an expression, or None where there is no certificate."""
-    try:
-        return Field(facts).sign(expr)
-    except OutOfReach:
-        return None
-
-
-def sides_of(claim: sp.Basic) -> tuple[sp.Expr, sp.Expr] | None:
-    """(greater, smaller) of a single strict inequality."""
-    if not isinstance(claim, Chain) or claim.relations not in (("<",), (">",)):
-        return None
-    left, right = claim.sides
-    return (left, right) if claim.relations == (">",) else (right, left)
-
-
-# -- conditions on the moduli -----------------------------------------------------------------
-
-
-@cache
-def moduli() -> tuple[Point, ...]:
-    """Constants on both sides of both conditions, near and far, chiral or not; small ones first."""
-    half = sp.Rational(1, 2)
-    grid = itertools.product((1, 2), (1, 2, 3), (half, 2), (0, 1, -half), (2, 1))
-    keys = (beta, eta, zeta, iota, p)
-    points = [{alpha: sp.Rational(7, 5), **dict(zip(keys, map(sp.sympify, row), strict=True))}
-              for row in grid]  # fmt: skip
-    for seed in range(6):
-        point = domains.sheared_constants(seed)
-        soft = float(b.subs(point))
-        for off in (-0.4, -0.06, -0.01, 0.01, 0.06, 0.4, 2):
-            borders = soft * (1 + off), soft + math.sqrt(soft) * (1 + off)  # c = 0, c = b^{1/2}
-            points += [{**point, zeta: sp.Rational(int(99991 / math.sqrt(k)), 99991)}
-                       for k in borders]  # fmt: skip
-    return tuple(q for q in points if chiral_gap.subs(q) > 0)
-
-
-@cache
-def moduli_with(facts: tuple[sp.Expr, ...]) -> tuple[Point, ...]:
-    """Those at which the facts hold."""
-    return tuple(q for q in moduli() if all(_positive(_value(fact, q)) for fact in facts))
-
-
-def _value(expr: sp.Expr, point: Point) -> Any:
-    return _at(tuple(point.items()))(expr)
-
-
-@cache
-def _at(point: tuple[tuple[sp.Symbol, sp.Rational], ...]) -> Evaluator:
-    """One evaluator a point: what the broken twins share is evaluated once."""
-    return Evaluator(context(30), dict(point))
-
-
-@cache
-def _numbers(meaning: Meaning, seed: int) -> Evaluator:
-    return meaning.evaluator(context(DIGITS), meaning.sample(seed))
-
-
-@dataclass(frozen=True, eq=False)
-class SameSign:
-    """Inequalities on the moduli that hold exactly where `needed` > 0 (so each iff the others).
-
-    Two are equivalent if their differences have a positive ratio, or if greater/smaller of one
-    is a positive power of greater/smaller of the other, all positive. given: facts of the
-    context. hypothesis: the quantity whose positivity the claim may assume, `Implies(q > 0, ...)`.
-    Disproof: constants at which one holds and another does not.
-    """
-
-    needed: tuple[sp.Expr, sp.Expr]  # (greater, smaller)
-    given: tuple[sp.Expr, ...] = (chiral_gap,)
-    hypothesis: sp.Expr | None = None
-
-    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
-        facts, claim = self.given, printed
-        if isinstance(printed, Implies):
-            assumed, claim = printed.args
-            pair = sides_of(assumed)
-            if pair is None or self.hypothesis is None:
-                return REJECTED
-            if certified(self.given, (pair[0] - pair[1]) / self.hypothesis) != 1:
-                return REJECTED
-            facts = (*facts, self.hypothesis)
-        sides = [sides_of(q) for q in (claim.args if isinstance(claim, Iff) else (claim,))]
-        if None in sides:
-            return REJECTED
-        pairs = [self.needed, *(pair for pair in sides if pair is not None)]
-        found = self._disproof(pairs, facts, explain)
-        if found is not None:
-            return found
-        if all(self._equivalent(self.needed, pair, facts) for pair in pairs[1:]):
-            return Decision(True, True, "equivalent to the derived condition, exactly")
-        return Decision(None, False, "not decided")
-
-    def _disproof(
-        self, pairs: list[tuple[sp.Expr, sp.Expr]], facts: tuple[sp.Expr, ...], explain: bool
-    ) -> Decision | None:
-        for point in moduli_with(facts):
-            try:
-                truths = [_positive(_value(big - small, point)) for big, small in pairs]
-            except ZeroDivisionError:
-                continue
-            except (TypeError, KeyError):  # the root of a negative number, or a foreign symbol
-                return REJECTED
-            if len(set(truths)) > 1:
-                where = tuple((str(k), str(q)) for k, q in point.items() if k not in (gamma, alpha))
-                told = (*pairs[1:], pairs[0]) if explain else ()
-                said = [f"{big.subs(point)} > {small.subs(point)}" for big, small in told]
-                found = Counterexample(where, said[0], said[1]) if said else None
-                return Decision(False, True, "counterexample", found)
-        return None
-
-    def _equivalent(
-        self, one: tuple[sp.Expr, sp.Expr], two: tuple[sp.Expr, sp.Expr], facts: tuple[sp.Expr, ...]
-    ) -> bool:
-        if certified(facts, (two[0] - two[1]) / (one[0] - one[1])) == 1:
-            return True
-        field = Field(facts)
-        for power in (sp.Integer(1), sp.Integer(2), p, p / 2):
-            try:
-                if all(field.sign(q) == 1 for q in (*one, *two)) and field.equal(
-                    two[0] / two[1], (one[0] / one[1]) ** power
-                ):
-                    return True
-            except OutOfReach:
-                return False
-        return False
-
-    def confirm(self, printed: sp.Basic) -> Confirmation | None:
-        return None
-
-
-def _positive(value: Any) -> bool:
-    return not getattr(value, "imag", 0) and bool(value.real > 1e-25)
-
-
-@dataclass(frozen=True, eq=False)
-class SameSides:
-    """Two inequalities that hold together on a domain: the product of their differences has a
-    positive sign there, by a certificate."""
-
-    meaning: Meaning
-
-    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
-        pairs = [sides_of(q) for q in printed.args]
-        if len(pairs) != 2 or None in pairs:
-            return REJECTED
-        differences = [self.meaning.interpret(q[0] - q[1]) for q in pairs if q is not None]
-        for seed in range(POINTS):
-            evaluate = self.meaning.evaluator(context(30), self.meaning.sample(seed))
-            try:
-                together = _positive(evaluate(sp.Mul(*differences)))
-            except KeyError:
-                return REJECTED  # a quantity that the claim is not about
-            if not together:
-                return Decision(False, False, "fails at a generic point")
-        if certified(self.meaning.positive, sp.Mul(*differences)) == 1:
-            return Decision(True, True, "the product of both is positive by a certificate")
-        return Decision(None, False, "not decided")
-
-    def confirm(self, printed: sp.Basic) -> Confirmation | None:
-        return None
-
-
-@dataclass(frozen=True, eq=False)
-class Necessary:
-    """`Implies(equation, condition)`: the equation is the derived one, the condition the derived
-    necessary one, and `proof` shows that the equation entails it."""
-
-    equation: Equation
-    condition: SameSign
-    proof: Callable[[], bool]
-    method: str
-
-    def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
-        if not isinstance(printed, Implies):
-            return REJECTED
-        found = all_of((self.equation,), printed.args[0], explain)
-        if not found.holds:
-            return found
-        found = all_of((self.condition,), printed.args[1], explain)
-        return Decision(True, True, self.method) if found.holds and self.proof() else found
-
-    def confirm(self, printed: sp.Basic) -> Confirmation | None:
-        return None
-
-
-@cache
-def condition_1_follows() -> bool:
-    """In a sheared state with v_3 > 0 and F > 0: c > 0 (by F n_3 = 1/c and v_3 = a/c)."""
-    facts = domains.SHEARED.positive[:3]
-    return certified(facts, c) == 1
-
-
-@cache
-def condition_2_follows() -> bool:
-    """(v_3 - 1)^2 < b for every N and theta, so that v_3 - 1 = 1/kappa needs 1/kappa < b^{1/2}.
-
-    b - (v_3 - 1)^2 = b (1 - F^2 Q*) + b F^2 (Q* - b N^2 cos^2 theta), where Q* - b N^2 cos^2 theta
-    = a N^2 sin^2 theta >= 0 and (F^2 Q*)^{p/2} = Q*^{p/2}/(1 + Q*^{p/2}) < 1.
-    """
-    for state in domains.PUSHED_OR_PULLED:
-        thrust, field = state.components[N], Field(state.positive)
-        Q, F = theory.dual_form(thrust), theory.law_factor(thrust)
-        strain = state.components[v3] - 1
-        rest = b * (1 - F**2 * Q) + F**2 * b * a * (thrust * sp.sin(domains.theta)) ** 2
-        power = Q ** (p / 2)
-        if not (
-            field.equal(b - strain**2, rest)
-            and field.equal((F**2 * Q) ** (p / 2), power / (1 + power))
-            and field.sign(1 - power / (1 + power)) == 1
-        ):
-            return False
-    return True
-
 
 # -- the branch -------------------------------------------------------------------------------
 
@@ -326,12 +109,12 @@ class NearThreshold:
         if not isinstance(printed, Chain) or printed.relations != ("=",):
             return REJECTED
         left, right = printed.sides
-        if left != LimitOf((N - domains.N_thresh) / domains.theta**2, domains.theta, sp.Integer(0)):
+        if left != LimitOf((N - domains.N_thresh) / theta**2, theta, sp.Integer(0)):
             return REJECTED
         value = domains.BRANCH.interpret(right)
         start, slope, wanted = taylor_of_thrust()
         for seed in range(POINTS):
-            evaluate = _numbers(domains.BRANCH, seed)
+            evaluate = numbers(domains.BRANCH, seed)
             if not abs(evaluate(value) - evaluate(wanted)) < 1e-30:
                 return Decision(False, False, "not the second derivative")
         field = Field(domains.BRANCH_EXISTS)
@@ -346,7 +129,7 @@ class NearThreshold:
             point = domains.BRANCH.sample(seed)
             tiny = ctx.mpf(10) ** -20
             near, at = (domains.numeric_thrust(point, t, ctx) for t in (tiny, tiny**3))
-            value = domains.BRANCH.evaluator(ctx, point)(printed.sides[1])  # type: ignore[attr-defined]
+            value = domains.BRANCH.evaluator(ctx, point)(printed.sides[1])
             worst = max(worst, float(abs((near - at) / tiny**2 / value - 1)))
         route = "N by a root search on the moment balance at theta = 1e-20"
         return Confirmation(worst, ROUTE_POINTS, DIGITS, route)
@@ -376,15 +159,15 @@ class SharpPowers:
                 if not (found.holds and found.exact):
                     return found
                 continue
-            numbers = [_numbers(self.meaning, k) for k in range(POINTS)]
-            if not all(_positive(e(right) - e(left)) for e in numbers):
+            values = [numbers(self.meaning, k) for k in range(POINTS)]
+            if not all(is_positive(e(right) - e(left)) for e in values):
                 return Decision(False, False, "fails at a generic point")
             if small == 0:
                 if field.sign(large) != 1:
                     return REJECTED
                 continue
             excess = (large / small) ** self.power - 1
-            on_edge = [abs(e((large / small).subs(edge)) - 1) for e in numbers]
+            on_edge = [abs(e((large / small).subs(edge)) - 1) for e in values]
             if max(on_edge) > 1e-25 or not field.is_zero(excess.subs(edge)):
                 return Decision(False, False, "not sharp")
             if field.sign(excess) != 1:
@@ -454,7 +237,7 @@ class ClosedAngle:
             return REJECTED
         cosine = right.args[0]
         for seed in range(POINTS):
-            evaluate = _at(tuple(self.sample(seed).items()))
+            evaluate = at_point(tuple(self.sample(seed).items()))
             value = evaluate(cosine)
             if getattr(value, "imag", 0) or not 0 < value < 1:
                 return Decision(False, False, "not a cosine")
@@ -471,7 +254,7 @@ class ClosedAngle:
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
         """The angle at a thrust (10^60 for the limit) by a root search on the moment balance."""
         (claim,) = instances(printed)
-        cosine = claim.sides[1].xreplace(dict(self.symbols)).args[0]  # type: ignore[attr-defined]
+        cosine = claim.sides[1].xreplace(dict(self.symbols)).args[0]
         ctx, worst = context(DIGITS + 15), 0.0
         for seed in range(ROUTE_POINTS):
             point = dict(self.sample(seed))

@@ -151,7 +151,7 @@ class NamesStretch:
 
     def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
         claim = printed.args[1] if isinstance(printed, Implies) else printed
-        right = [single.sides[1] for single in claims(claim)]  # type: ignore[attr-defined]
+        right = [single.sides[1] for single in claims(claim)]
         (size,) = (value for value in right if value != 0)
         square = sp.Add(*(domains.tangent[i] ** 2 for i in (1, 2, 3)))
         squares = Chain(sp.Tuple(size**2, square), sp.Tuple(sp.Symbol("=")))
@@ -192,7 +192,7 @@ def _configuration(state: Meaning, claim: sp.Basic) -> dict[sp.Symbol, sp.Expr]:
     """u_3, v_k, d_k and r' as expressions: as stated, else from what is stated, else derived."""
     stated: dict[sp.Symbol, sp.Expr] = {}
     for single in claims(claim):
-        for left, relation, right in single.links():  # type: ignore[attr-defined]
+        for left, relation, right in single.links():
             symbol = next((x for x in sp.Add.make_args(left) if x.is_Symbol), None)
             if relation == "=" and symbol is not None:
                 stated[symbol] = state.interpret(right - (left - symbol))
@@ -341,7 +341,7 @@ class Equation:
         if self.route is None:
             return None
         (claim,) = claims(printed)
-        left, right = claim.sides  # type: ignore[attr-defined]
+        left, right = claim.sides
         difference = self.meaning.interpret(left - right)
         ratio, ctx, worst = self.constant_ratio(difference), context(DIGITS + 15), 0.0
         for seed in range(ROUTE_POINTS):

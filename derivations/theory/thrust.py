@@ -42,7 +42,7 @@ def force_components(
     thrust: sp.Expr = N, polar: sp.Expr = theta, twist: sp.Expr = psi
 ) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """The components of N g_3 in the directors: N times the third entries of d_1, d_2, d_3."""
-    return tuple(thrust * d[2] for d in euler_frame(phi, polar, twist))  # type: ignore[return-value]
+    return tuple(thrust * d[2] for d in euler_frame(phi, polar, twist))
 
 
 @cache
