@@ -82,7 +82,7 @@ def _forms() -> Derivation:
                 "The inverse of K",
                 "Invert the two by two block; the rest is diagonal.",
                 equal(K_inverse, compliance),
-                MatrixIdentity(stiffness * compliance, sp.eye(6), (chiral_gap,)),
+                MatrixIdentity(lambda: (stiffness * compliance, sp.eye(6)), (chiral_gap,)),
             ),
             Step(
                 "The dual form",

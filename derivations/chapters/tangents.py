@@ -17,11 +17,16 @@ def derivations() -> tuple[Derivation, ...]:
     return (_hessian(),)
 
 
+def _compliance_at_strains() -> sp.Matrix:
+    """D^2 W* at the loads that belong to the strains."""
+    loads = dict(ON_STRAINS.components)
+    return theory.compliance().xreplace({s: loads[s] for s in LOADS})
+
+
 def _hessian() -> Derivation:
     K, K_inv = sp.Symbol("K"), sp.Symbol("K_inverse")
     k, e = sp.Symbol("k"), sp.Symbol("e")
     q, q_star = Q(u, v) ** (p / 2), Qstar(m, n) ** (p / 2)
-    loads = dict(ON_STRAINS.components)
     return Derivation(
         label="hessian",
         title="Hessians of the two energies",
@@ -39,7 +44,8 @@ def _hessian() -> Derivation:
                     * (K + q / (1 - q) * k * sp.Symbol("k^T") / Q(u, v)),
                 ),
                 MatrixIdentity(
-                    theory.stiffness(), theory.stiffness_structure(), ON_STRAINS.positive
+                    lambda: (theory.stiffness(), theory.stiffness_structure()),
+                    ON_STRAINS.positive,
                 ),
                 ("hessian-blocks",),
             ),
@@ -52,7 +58,8 @@ def _hessian() -> Derivation:
                     * (K_inv - q_star / (gamma**p + q_star) * e * sp.Symbol("e^T") / Qstar(m, n)),
                 ),
                 MatrixIdentity(
-                    theory.compliance(), theory.compliance_structure(), ON_LOADS.positive
+                    lambda: (theory.compliance(), theory.compliance_structure()),
+                    ON_LOADS.positive,
                 ),
             ),
             Step(
@@ -61,8 +68,7 @@ def _hessian() -> Derivation:
                 "Jacobians of inverse maps are inverse matrices.",
                 equal(sp.Symbol("D2W") * sp.Symbol("D2Wstar"), sp.Symbol("I")),
                 MatrixIdentity(
-                    theory.stiffness() * theory.compliance().xreplace({s: loads[s] for s in LOADS}),
-                    sp.eye(6),
+                    lambda: (theory.stiffness() * _compliance_at_strains(), sp.eye(6)),
                     ON_STRAINS.positive,
                 ),
             ),

@@ -82,10 +82,9 @@ class _Numbers:
 
     def _energy(self, radius: Any) -> Any:
         """W* in the variable r = t^{1/2}: the integrand r (gamma^p + r^p)^{-1/p} is tame at 0."""
-        power, scale = self.c[p], self.c[gamma]
-        return self.ctx.quad(
-            lambda r: r * (scale**power + r**power) ** (-1 / power), [0, radius]
-        )
+        power, root = self.c[p], -1 / self.c[p]
+        scale = self.c[gamma] ** power
+        return self.ctx.quad(lambda r: r * (scale + r**power) ** root, [0, radius])
 
     def strains(self, load: list[Any]) -> list[Any]:
         """Numerical gradient of W*: the slope in the load radius times the radius' gradient."""

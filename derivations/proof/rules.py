@@ -394,17 +394,16 @@ class Formalised:
 
 @dataclass(frozen=True, eq=False)
 class MatrixIdentity:
-    """Two matrices agree entry by entry, exactly."""
+    """Two matrices agree entry by entry, exactly; `sides` makes them when they are asked for."""
 
-    left: sp.Matrix
-    right: sp.Matrix
+    sides: Callable[[], tuple[sp.Matrix, sp.Matrix]]
     positive: tuple[sp.Expr, ...]
 
     def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
         field = Field(self.positive)
-        pairs = zip(self.left, self.right, strict=True)
-        agree = all(field.equal(a, b) for a, b in pairs)
-        return Decision(agree or None, True, f"exact identity of {len(self.left)} entries")
+        left, right = self.sides()
+        agree = all(field.equal(a, b) for a, b in zip(left, right, strict=True))
+        return Decision(agree or None, True, f"exact identity of {len(left)} entries")
 
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
         return None

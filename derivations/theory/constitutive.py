@@ -108,7 +108,8 @@ def radial_law() -> RadialLaw:
     """
     strain = y * (gamma**p + y**p) ** (-1 / p)
     X, Y, G = sp.symbols("X Y G", positive=True)
-    (solution,) = sp.solve(sp.Eq(X * (G + Y), Y), Y)  # = G X/(1 - X)
+    slope, constant = sp.Poly(X * (G + Y) - Y, Y).all_coeffs()
+    solution = sp.cancel(-constant / slope)  # = G X/(1 - X)
     load = gamma * x * sp.powsimp((solution / (G * X)).subs(X, x**p)) ** (1 / p)
     return RadialLaw(strain, load)
 
