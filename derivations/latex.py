@@ -31,7 +31,7 @@ _NAMES = {
 #: Vectors whose components stand in a transcription: `r_s[1]` is the first component of r'.
 _VECTORS = {
     "r": "r", "r_s": "r'", "d1_": "d_1", "d2_": "d_2", "d3_": "d_3", "d3_s": "d_3'",
-    "m_g": "m", "n_s": "n'",
+    "r'": "r'", "m_g": "m", "m_s": "m'", "n_s": "n'",
 }  # fmt: skip
 _FUNCTIONS = {"W_star": "W^*", "load": r"\hat y", "dim": r"\operatorname{dim}", "Phi": r"\Phi"}
 _LETTERS = frozenset(
@@ -77,7 +77,8 @@ class _Printer(LatexPrinter):
             return rf"\partial_t {name[:-2]}_{{{indices}}}"
         if name in ("d", "e", "g"):
             return rf"\boldsymbol{{{name}}}_{{{indices}}}"
-        return rf"{name}_{{{indices}}}"
+        stem, _, place = name.partition("_")
+        return rf"{stem}_{{{place}\,{indices}}}" if place else rf"{name}_{{{indices}}}"
 
     def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
         """Positive terms first, and plain numbers first among them."""

@@ -43,7 +43,10 @@ _SPECIAL = {
 }
 _MATH_WORD = re.compile(
     r"[\^_*=<>/]|^-?\d*(" + "|".join(_GREEK) + r")$|^[a-zA-Z]$|^[A-Za-z]\([^)]*\)$|^oo$|->"
+    r"|^\{?\\[a-z]|^[uvmnabgMN][123]$|^[A-Za-z](?:'+|\([^)]*)$"
+    r"|^-?(?:sin|cos|tan|cot|" + "|".join(_GREEK) + r")(?:'+|'*\([^)]*)$"
 )
+_NUMBER = re.compile(r"-?\d+([./]\d+)?[.,;:)]*$")
 _OPERATORS = frozenset(("=", "<", ">", ">=", "<=", "->", "+", "-", ".", "x"))
 
 
@@ -68,8 +71,10 @@ def _sentence(text: str) -> str:
     out: list[str] = []
     run: list[str] = []
     for word in _words(text):
-        if _is_math(word) or (run and word in _OPERATORS):
+        if _is_math(word) or (run and (word in _OPERATORS or _is_operand(word, run[-1]))):
             run.append(word)
+            if word[-1] in ",;:" and _is_balanced(" ".join(run)):
+                _close(run, out)
             continue
         _close(run, out)
         out.append(escape(word))
@@ -101,7 +106,18 @@ def _is_math(word: str) -> bool:
         or ("-" in core.strip("-") and core.isalpha())
     ):
         return False
-    return bool(_MATH_WORD.search(core)) and not re.search(r"[A-Za-z]{4,}/[a-z]{3,}|'", core)
+    return bool(_MATH_WORD.search(core)) and not re.search(
+        r"[A-Za-z]{4,}/[a-z]{3,}|^'|'[a-z]", core
+    )
+
+
+def _is_operand(word: str, before: str) -> bool:
+    """A number after a relation belongs to the formula."""
+    return before in _OPERATORS and bool(_NUMBER.match(word))
+
+
+def _is_balanced(text: str) -> bool:
+    return all(text.count(a) == text.count(b) for a, b in ("()", "[]", "{}"))
 
 
 def _close(run: list[str], out: list[str]) -> None:
@@ -123,16 +139,18 @@ def mathematics(text: str) -> str:
     """Plain-text mathematics as LaTeX: Greek names, relations, products, primes."""
     text = text.replace("**", "^").replace("Q*", "Q^{*}").replace("W*", "W^{*}")
     text = re.sub(r"(?<=\w)\*(?=\w)", " ", text)
+    text = re.sub(r"([_^])(-?\d{2,}|-\d|[a-z]{3,})(?!\w)", r"\1{\2}", text)
     text = re.sub(r"\^\{\*\}\^\{?(-?[\w/]+)\}?", r"^{*\\,\1}", text)
     text = re.sub(r"(?<![A-Za-z\\])(" + "|".join(_GREEK) + r")(?![A-Za-z])", r"\\\1 ", text)
     text = text.replace("\\eps ", "\\varepsilon ")
     for plain, tex in _SIGNS:
         text = re.sub(plain, tex.replace("\\", r"\\"), text)
-    return re.sub(r"(?<![A-Za-z\\])([unvmMN])([123])(?![0-9])", r"\1_\2", text)
+    return re.sub(r"(?<![A-Za-z\\])([unvmabgMN])([123])(?![0-9])", r"\1_\2", text)
 
 
 _SIGNS = (
     (r"->", r"\to "),
+    (r"!=", r"\neq "),
     (r">=", r"\geq "),
     (r"<=", r"\leq "),
     (r" \. ", r" \cdot "),
