@@ -119,7 +119,12 @@ def check(
     with show.progress("check") as tell:
         evidence = ledger.check(chosen, mutants=mutants, jobs=workers, progress=tell)
     if as_json:
-        show.as_json([row.as_row() for row in evidence])
+        show.as_json(
+            {
+                "totals": ledger.totals(evidence),
+                "statements": [row.as_row() for row in evidence],
+            }
+        )
     elif len(evidence) == 1:
         show.story(evidence[0], _steps(evidence[0]))
     else:

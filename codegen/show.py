@@ -119,7 +119,15 @@ def totals(evidence: Sequence[Evidence]) -> str:
     """``9 statements: 7 proved, 2 refuted``."""
     counts = Counter(row.verdict for row in evidence)
     parts = ", ".join(f"{counts[verdict]} {verdict}" for verdict in STYLES if counts[verdict])
-    return f"{len(evidence)} statement{'s' * (len(evidence) != 1)}: {parts or 'none'}"
+    line = f"{len(evidence)} statement{'s' * (len(evidence) != 1)}: {parts or 'none'}"
+    tried = [row for row in evidence if row.mutants_tried is not None]
+    if tried:
+        killed = sum(row.mutants_killed or 0 for row in tried)
+        same = sum(row.mutants_equivalent or 0 for row in tried)
+        total = sum(row.mutants_tried or 0 for row in tried)
+        left = total - killed - same
+        line += f"; {total} mutants: {killed} killed, {same} equivalent, {left} survive"
+    return line
 
 
 def story(row: Evidence, steps: Sequence[tuple[str, str, str]] = ()) -> None:

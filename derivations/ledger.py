@@ -20,7 +20,7 @@ from pathlib import Path
 from rodproof.derivations.latex import block
 from rodproof.derivations.proof.mutants import mutants as broken_twins
 from rodproof.derivations.proof.prover import DIGITS, POINTS
-from rodproof.derivations.records import Confirmation, Decision, Evidence, Statement
+from rodproof.derivations.records import VERDICTS, Confirmation, Decision, Evidence, Statement
 
 #: One module a section, in the order of the paper.
 SECTIONS: Mapping[str, str] = {
@@ -187,6 +187,20 @@ def _verdict(
         return "definition" if statement.introduces else "proved"
     agrees = confirmation is not None and printed.holds is None and "digits" in printed.method
     return "checked" if agrees else "undecided"
+
+
+def totals(evidence: Iterable[Evidence]) -> dict[str, object]:
+    """Counts per verdict, and what became of all broken twins (None if they were not tried)."""
+    rows = tuple(evidence)
+    tried = [row for row in rows if row.mutants_tried is not None]
+    return {
+        "statements": len(rows),
+        "verdicts": {v: sum(row.verdict == v for row in rows) for v in VERDICTS},
+        "mutants_tried": sum(row.mutants_tried or 0 for row in tried) if tried else None,
+        "mutants_killed": sum(row.mutants_killed or 0 for row in tried) if tried else None,
+        "mutants_equivalent": sum(row.mutants_equivalent or 0 for row in tried) if tried else None,
+        "survivors": {row.id: list(row.survivors) for row in tried if row.survivors},
+    }
 
 
 class _Teeth:

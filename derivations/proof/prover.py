@@ -227,7 +227,9 @@ def counterexample(
         a, b = left.subs(point), right.subs(point)
         if not (a.is_finite and b.is_finite) or _respects(a, relation, b):
             continue
-        found = Counterexample(tuple((str(k), str(x)) for k, x in point.items()), str(a), str(b))
+        plays = left.free_symbols | right.free_symbols
+        where = tuple((str(k), str(x)) for k, x in point.items() if k in plays)
+        found = Counterexample(where, str(a), str(b))
         if a.is_Rational and b.is_Rational:
             return found
         fallback = fallback or found

@@ -61,7 +61,7 @@ def test_check_one_tells_its_story() -> None:
 
 def test_check_json_has_a_row_each() -> None:
     result = rodproof("check", "const-u-3", "constants-hypothesis", "--json", "--jobs", "1")
-    rows = json.loads(result.stdout)
+    rows = json.loads(result.stdout)["statements"]
     assert [row["id"] for row in rows] == ["const-u-3", "constants-hypothesis"]
     assert [row["verdict"] for row in rows] == ["proved", "refuted"]
     assert rows[0]["mutants_tried"] is None
@@ -70,7 +70,9 @@ def test_check_json_has_a_row_each() -> None:
 
 
 def test_check_with_mutants_counts_them() -> None:
-    (row,) = json.loads(rodproof("check", "small-strain-m-3", "--mutants", "--json").stdout)
+    found = json.loads(rodproof("check", "small-strain-m-3", "--mutants", "--json").stdout)
+    (row,) = found["statements"]
+    assert found["totals"]["mutants_tried"] == row["mutants_tried"]
     assert row["mutants_tried"] > 0
     assert row["mutants_killed"] + row["mutants_equivalent"] == row["mutants_tried"]
 
