@@ -1,6 +1,6 @@
 """From a scene to its module: every arrow of the code generator in one place.
 
-scene --lower--> naive kernels --PASSES--> kernels --print_module--> text --write--> file
+scene --lower--> naive kernels --passes--> kernels --print_module--> text --write--> file
 """
 
 from __future__ import annotations
@@ -14,17 +14,16 @@ from rodproof.codegen import files as disk
 from rodproof.codegen import scene as toml
 from rodproof.codegen.kernel import Kernel, validate
 from rodproof.codegen.lower import lower
+from rodproof.codegen.passes.choose import case, stabilise
 from rodproof.codegen.passes.name import name
 from rodproof.codegen.passes.order import order
 from rodproof.codegen.passes.share import share
-from rodproof.codegen.passes.specialise import drop_dead
-from rodproof.codegen.passes.stabilise import stabilise
+from rodproof.codegen.passes.specialise import drop_dead, specialise
 from rodproof.codegen.scene import Scene
 from rodproof.codegen.targets.numpy_target import print_module
 from rodproof.derivations.symbols import CONSTANTS
 
-#: In this order; each takes a kernel and returns one that means the same.
-PASSES: tuple[Callable[[Kernel], Kernel], ...] = (stabilise, share, drop_dead, order, name)
+Pass = Callable[[Kernel], Kernel]
 
 FOLDER = "scenes"
 INIT = '"""One module a scene; every byte is written by rodproof.codegen."""\n'
@@ -39,11 +38,24 @@ class Difference:
     diff: str
 
 
+def passes(scene: Scene) -> tuple[Pass, ...]:
+    """In this order; each takes a kernel and returns one that means the same in the scene."""
+    chosen = case(scene)
+    return (
+        lambda kernel: stabilise(kernel, chosen),
+        lambda kernel: specialise(kernel, scene),
+        share,
+        drop_dead,
+        order,
+        name,
+    )
+
+
 def kernels(scene: Scene) -> tuple[Kernel, ...]:
     """The scene's kernels after all passes."""
     done = []
     for kernel in lower(scene):
-        for step in PASSES:
+        for step in passes(scene):
             kernel = step(kernel)
         validate(kernel, frozenset(s.name for s in CONSTANTS))
         done.append(kernel)

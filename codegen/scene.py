@@ -1,27 +1,26 @@
 """Scenes: what to generate, as data.
 
-A scene is a TOML file with these keys, all of them optional but the first:
-
-=============  ==================================================================================
-key            value
-=============  ==================================================================================
-``name``       the module's name, a Python identifier
-``summary``    one line for the module's first line
-``functions``  which of the six public functions, in the order in which they are printed
-``at_limit``   ``"raise"`` (default) or ``"nan"``: what loads, stored_energy and stiffness do
-               where the strains are at or past the limit, Q >= 1
-=============  ==================================================================================
+A scene is a TOML file; its keys are the fields of `Scene`, all of them optional but the name.
+`rodproof.codegen.schema` publishes them as a JSON schema for editors.
 """
 
 from __future__ import annotations
 
 import difflib
 import keyword
+import math
 import tomllib
-from dataclasses import dataclass, fields
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, fields
+from fractions import Fraction
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
+from rodproof.derivations.symbols import CONSTANTS, LOADS
+from rodproof.derivations.theory import constrained
+
+FUNCTIONS_OF_LOADS = ("strains", "complementary_energy", "compliance")
 FUNCTIONS = (
     "strains",
     "loads",
@@ -30,7 +29,17 @@ FUNCTIONS = (
     "stiffness",
     "compliance",
 )
-POLICIES = ("raise", "nan")
+CONSTANT_NAMES = ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p")
+LOAD_NAMES = tuple(s.name for s in LOADS)
+#: A modulus of the linear rod, in the user's unit of force, by its name: gamma times the second.
+MODULI = {
+    "bending": "alpha",
+    "twisting": "beta",
+    "shearing": "zeta",
+    "dilating": "eta",
+    "coupling": "iota",
+}
+assert {s.name for s in CONSTANTS} == set(CONSTANT_NAMES)
 
 
 class SceneError(ValueError):
@@ -38,38 +47,176 @@ class SceneError(ValueError):
 
 
 @dataclass(frozen=True)
-class Scene:
-    """What a generated module holds."""
+class Key:
+    """A key of a scene file: its kind (text, choice, names or numbers) and what it may say."""
 
-    name: str
-    summary: str = "A strain-limiting special Cosserat rod."
-    functions: tuple[str, ...] = FUNCTIONS
-    at_limit: str = "raise"
+    kind: str
+    doc: str
+    allowed: tuple[str, ...] = ()
+
+
+def _key(kind: str, doc: str, allowed: Iterable[str] = ()) -> Mapping[str, Key]:
+    return {"key": Key(kind, doc, tuple(allowed))}
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What a generated module holds; `keys` says what each field means."""
+
+    name: str = field(metadata=_key("text", "The module's name, a Python identifier."))
+    summary: str = field(
+        default="A strain-limiting special Cosserat rod.",
+        metadata=_key("text", "One line for the module's first line."),
+    )
+    functions: tuple[str, ...] = field(
+        default=FUNCTIONS,
+        metadata=_key("names", "The public functions, in the order of printing.", FUNCTIONS),
+    )
+    constraints: tuple[str, ...] = field(
+        default=(),
+        metadata=_key(
+            "names",
+            "Strains held at rest (their loads become reactions), or symmetries: achiral is "
+            "iota = 0; planar is achiral, with loads in the plane of d1 and d3.",
+            constrained.CONSTRAINTS,
+        ),
+    )
+    loads: tuple[str, ...] = field(
+        default=(),
+        metadata=_key(
+            "names",
+            "The loads that are not zero; all that the constraints leave if empty.",
+            LOAD_NAMES,
+        ),
+    )
+    fixed: Mapping[str, float] = field(
+        default_factory=dict,
+        metadata=_key(
+            "numbers",
+            "Constants that are always these numbers; p = 2 has its own formulas.",
+            CONSTANT_NAMES,
+        ),
+    )
+    defaults: Mapping[str, float] = field(
+        default_factory=dict,
+        metadata=_key(
+            "numbers", "Constants given at run time that have a default.", CONSTANT_NAMES
+        ),
+    )
+    moduli: Mapping[str, float] = field(
+        default_factory=dict,
+        metadata=_key(
+            "numbers",
+            "Moduli of the linear rod, gamma alpha^2, gamma beta^2, gamma zeta^2, gamma eta^2 and "
+            "gamma iota, as defaults from which the constants follow once gamma is known.",
+            MODULI,
+        ),
+    )
+    layout: str = field(
+        default="first",
+        metadata=_key("choice", "Components on the first or the last axes.", ("first", "last")),
+    )
+    precision: str = field(
+        default="input",
+        metadata=_key(
+            "choice",
+            "Type of the results; input keeps float32 and makes the rest float64.",
+            ("input", "float64", "float32"),
+        ),
+    )
+    at_limit: str = field(
+        default="raise",
+        metadata=_key(
+            "choice",
+            "What functions of the strains do at and past the limit, Q >= 1.",
+            ("raise", "nan"),
+        ),
+    )
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier() or keyword.iskeyword(self.name):
             raise SceneError(f"scene name {self.name!r} is not a Python identifier")
-        if not self.functions:
-            raise SceneError(f"scene {self.name}: functions must name at least one function")
-        for function in self.functions:
-            _known(f"scene {self.name}: function", function, FUNCTIONS)
-        if len(set(self.functions)) < len(self.functions):
-            raise SceneError(f"scene {self.name}: functions names a function twice")
         if '"' in self.summary or "\\" in self.summary or "\n" in self.summary:
             raise SceneError(f"scene {self.name}: summary must be one line without quotes")
-        _known(f"scene {self.name}: at_limit", self.at_limit, POLICIES)
+        if not self.functions:
+            raise SceneError(f"scene {self.name}: functions must name at least one function")
+        for name, key in keys().items():
+            self._check(name, key)
+        self._check_loads()
+        self._check_constants()
+
+    def _check(self, name: str, key: Key) -> None:
+        value = getattr(self, name)
+        what = f"scene {self.name}: {name.removesuffix('s')}"
+        if key.kind == "choice":
+            known(f"scene {self.name}: {name}", value, key.allowed)
+        elif key.kind != "text":
+            for entry in value:
+                known(what, entry, key.allowed)
+            if len(set(value)) < len(value):
+                raise SceneError(f"scene {self.name}: {name} names a {name[:-1]} twice")
+
+    def _check_loads(self) -> None:
+        kept = constrained.kept(self.constraints)
+        left = [LOAD_NAMES[i] for i in kept]
+        for load in self.loads:
+            if load not in left:
+                why = f"is none of what {' and '.join(self.constraints)} leaves, {', '.join(left)}"
+                raise SceneError(f"scene {self.name}: load {load} {why}")
+        if not kept:
+            raise SceneError(f"scene {self.name}: the constraints leave nothing that moves")
+        of_strains = [f for f in self.functions if f not in FUNCTIONS_OF_LOADS]
+        if of_strains and self.loads and set(self.loads) != set(left):
+            raise SceneError(
+                f"scene {self.name}: {of_strains[0]} is a function of the strains, which are not "
+                f"free where loads are zero; leave out loads, or ask for {FUNCTIONS_OF_LOADS[0]}"
+            )
+
+    def _check_constants(self) -> None:
+        """Each constant is of this rod, is set once, and the numbers make a rod."""
+        gone = {c.rigid.name for c in map(_constraint, self.constraints) if c.rigid is not None}
+        gone |= {"iota"} if constrained.achiral(self.constraints) else set()
+        derived = {MODULI[name]: value for name, value in self.moduli.items()}
+        for group in (self.fixed, self.defaults, derived):
+            for name, value in group.items():
+                if name in gone:
+                    rule = f"is no constant of a rod that is {' and '.join(self.constraints)}"
+                    raise SceneError(f"scene {self.name}: {name} {rule}")
+                if not math.isfinite(value) or (value <= 0 and name != "iota"):
+                    rule = "a finite number" if name == "iota" else "positive and finite"
+                    raise SceneError(f"scene {self.name}: {name} must be {rule}, not {value}")
+        if self.fixed.get("iota") == 0:
+            raise SceneError(f"scene {self.name}: for iota = 0 say constraints = ['achiral']")
+        for name in CONSTANT_NAMES:
+            if sum(name in group for group in (self.fixed, self.defaults, derived)) > 1:
+                raise SceneError(f"scene {self.name}: {name} is set twice")
+        for values in ({**self.fixed, **self.defaults}, derived):
+            if {"beta", "eta", "iota"} <= set(values):
+                beta, eta, iota = (Fraction(values[name]) for name in ("beta", "eta", "iota"))
+                if not (beta * eta > iota**2 if values is derived else beta * eta > abs(iota)):
+                    raise SceneError(f"scene {self.name}: beta^2 eta^2 - iota^2 > 0 fails")
+        needed = {name for name, constant in MODULI.items() if constant not in gone}
+        missing = [name for name in MODULI if name in needed - set(self.moduli)]
+        if self.moduli and missing:
+            raise SceneError(f"scene {self.name}: moduli lacks {', '.join(missing)}")
+
+
+def keys() -> dict[str, Key]:
+    """The keys of a scene file, in order."""
+    return {f.name: f.metadata["key"] for f in fields(Scene)}
 
 
 def committed_names() -> tuple[str, ...]:
-    """Names of the scenes that come with the project, sorted."""
+    """Names of the scenes that come with the project, the full rod first."""
     folder = resources.files("rodproof.codegen").joinpath("scenes")
     names = (entry.name for entry in folder.iterdir())
-    return tuple(sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")))
+    found = (name.removesuffix(".toml") for name in names if name.endswith(".toml"))
+    return tuple(sorted(found, key=lambda name: (name != "full_rod", name)))
 
 
 def committed(name: str) -> Scene:
     """A scene that comes with the project; raises `SceneError` with the nearest name."""
-    _known("scene", name, committed_names())
+    known("scene", name, committed_names())
     text = resources.files("rodproof.codegen").joinpath("scenes", f"{name}.toml").read_text("utf-8")
     scene = parse(text, f"{name}.toml")
     if scene.name != name:
@@ -92,24 +239,35 @@ def parse(text: str, source: str) -> Scene:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise SceneError(f"{source}: not TOML: {error}") from error
-    keys = tuple(field.name for field in fields(Scene))
     for key in data:
-        _known(f"{source}: key", key, keys)
+        known(f"{source}: key", key, tuple(keys()))
     if "name" not in data:
         raise SceneError(f"{source}: key 'name' is missing")
-    for key, value in data.items():
-        wanted = "a list of strings" if key == "functions" else "a string"
-        entries = value if key == "functions" and isinstance(value, list) else [value]
-        if isinstance(value, list) != (key == "functions") or not all(
-            isinstance(entry, str) for entry in entries
-        ):
-            raise SceneError(f"{source}: {key} must be {wanted}, not {value!r}")
-    if "functions" in data:
-        data["functions"] = tuple(data["functions"])
-    return Scene(**data)
+    return Scene(**{key: _value(f"{source}: {key}", keys()[key], data[key]) for key in data})
 
 
-def _known(what: str, value: str, allowed: tuple[str, ...]) -> None:
+def _value(what: str, key: Key, value: Any) -> Any:
+    """The value as `Scene` wants it, after a look at its type."""
+    if key.kind == "names":
+        if not isinstance(value, list) or not all(isinstance(entry, str) for entry in value):
+            raise SceneError(f"{what} must be a list of strings, not {value!r}")
+        return tuple(value)
+    if key.kind == "numbers":
+        entries = value.values() if isinstance(value, dict) else [None]
+        if not all(isinstance(e, (int, float)) and not isinstance(e, bool) for e in entries):
+            raise SceneError(f"{what} must be a table of numbers, not {value!r}")
+        return {name: float(number) for name, number in value.items()}
+    if not isinstance(value, str):
+        raise SceneError(f"{what} must be a string, not {value!r}")
+    return value
+
+
+def _constraint(name: str) -> constrained.Constraint:
+    return constrained.CONSTRAINTS[name]
+
+
+def known(what: str, value: str, allowed: tuple[str, ...]) -> None:
+    """Raises `SceneError` with the nearest allowed value unless ``value`` is one."""
     if value in allowed:
         return
     near = difflib.get_close_matches(value, allowed, n=1, cutoff=0.5)

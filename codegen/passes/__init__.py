@@ -1,4 +1,4 @@
 """Passes, each a file named by its verb and a function from kernel to kernel.
 
-The order is that of `rodproof.codegen.generate.PASSES`: specialise, stabilise, share, order, name.
+The order is that of `rodproof.codegen.generate.passes`: stabilise, specialise, share, order, name.
 """

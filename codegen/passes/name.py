@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import sympy as sp
@@ -11,7 +12,7 @@ from rodproof.derivations.symbols import gamma
 from rodproof.derivations.theory.constitutive import y
 
 #: What an expression is called; a square is called after its root, the rest keeps its number.
-NAMES: dict[sp.Expr, str] = {sp.Max(y, gamma): "larger"}
+NAMES: dict[sp.Expr, str] = {sp.Max(y, gamma): "larger", sp.Max(y, 1): "larger"}
 
 
 def name(kernel: Kernel) -> Kernel:
@@ -24,6 +25,7 @@ def name(kernel: Kernel) -> Kernel:
 def _name(old: str, expr: sp.Expr) -> str:
     if expr in NAMES:
         return NAMES[expr]
-    if isinstance(expr, sp.Pow) and expr.exp == 2 and expr.base.is_Symbol:
+    numbered = re.fullmatch(r"t\d+(_\w+)?", old)
+    if numbered and isinstance(expr, sp.Pow) and expr.exp == 2 and expr.base.is_Symbol:
         return f"{expr.base.name[0]}{expr.base}"  # aa1 for the square of a1
     return old

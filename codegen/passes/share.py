@@ -16,7 +16,7 @@ MODULI = (alpha, beta, zeta, eta)
 
 def share(kernel: Kernel) -> Kernel:
     """The kernel with constants hoisted, aliases gone and repeated subexpressions named."""
-    return share_repeated(drop_aliases(hoist_reciprocals(kernel)))
+    return drop_aliases(share_repeated(merge_equal(drop_aliases(hoist_reciprocals(kernel)))))
 
 
 def hoist_reciprocals(kernel: Kernel) -> Kernel:
@@ -38,9 +38,29 @@ def hoist_reciprocals(kernel: Kernel) -> Kernel:
 
 def drop_aliases(kernel: Kernel) -> Kernel:
     """An assignment that only renames another goes away."""
-    aliases = {a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol}
+    kept_names = {kernel.dyad.weight, *kernel.dyad.vector} if kernel.dyad else set()
+    aliases = {
+        a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol and a.name not in kept_names
+    }
+    if not aliases:
+        return kernel
     kept = tuple(a for a in kernel.body if a.symbol not in aliases)
-    return replace(kernel, body=kept).rewrite(aliases)
+    return drop_aliases(replace(kernel, body=kept).rewrite(aliases))
+
+
+def merge_equal(kernel: Kernel) -> Kernel:
+    """Of the names of a step that stand for the same expression the first is kept."""
+    first: dict[tuple[str, sp.Expr], sp.Symbol] = {}
+    equal = {}
+    vector = kernel.dyad.vector if kernel.dyad else ()
+    for a in (a for a in kernel.body if a.name not in vector):
+        known = first.setdefault((a.step, a.expr), a.symbol)
+        if known != a.symbol:
+            equal[a.symbol] = known
+    if not equal:
+        return kernel
+    kept = tuple(a for a in kernel.body if a.symbol not in equal)
+    return merge_equal(drop_aliases(replace(kernel, body=kept).rewrite(equal)))
 
 
 def share_repeated(kernel: Kernel) -> Kernel:

@@ -1,17 +1,90 @@
-"""Drops what a scene does not want: outputs, and whatever only they needed."""
+"""Leaves out what a scene does not have: dead loads and strains, and whatever only they needed."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import sympy as sp
 
-from rodproof.codegen.kernel import Assignment, Kernel
+from rodproof.codegen.kernel import Assignment, Gauge, Kernel, Output
+from rodproof.codegen.live import Group, groups, live, substitution
+from rodproof.codegen.scene import LOAD_NAMES, Scene
+from rodproof.derivations.symbols import STRAINS
+
+STRAIN_NAMES = tuple(s.name for s in STRAINS)
+LETTERS = {"strains": "uv", "loads": "mn"}  # what a function returns by components
 
 
-def specialise(kernel: Kernel, fixed: dict[sp.Expr, sp.Expr]) -> Kernel:
-    """The kernel with constants, loads or strains set to ``fixed`` values, and dead code gone."""
-    return drop_dead(kernel.rewrite(fixed) if fixed else kernel)
+def specialise(kernel: Kernel, scene: Scene) -> Kernel:
+    """The kernel of the scene: lost components and fixed constants put in, lost outputs gone."""
+    known = substitution(scene)
+    if not known:
+        return kernel
+    components = live(scene).loads
+    names = LOAD_NAMES if kernel.inputs[0] == LOAD_NAMES[0] else STRAIN_NAMES
+    kernel = replace(
+        propagate(kernel, known),
+        inputs=tuple(names[i] for i in components),
+        gauge=_gauge(kernel.gauge, components),
+    )
+    return _outputs(kernel, scene)
+
+
+def propagate(kernel: Kernel, known: Mapping[sp.Expr, sp.Expr]) -> Kernel:
+    """With ``known`` put in, and every assignment that became a number or a modulus, too."""
+    found = dict(known)
+    while found:
+        constants = tuple(replace(a, expr=a.expr.xreplace(found)) for a in kernel.constants)
+        kernel = replace(kernel.rewrite(found), constants=constants)
+        found = {a.symbol: a.expr for a in kernel.body if a.expr.is_number}
+        found |= {a.symbol: a.expr for a in constants if _simple(a.expr)}
+        kernel = replace(
+            kernel,
+            body=tuple(a for a in kernel.body if a.symbol not in found),
+            constants=tuple(a for a in constants if a.symbol not in found),
+        )
+    return kernel
+
+
+def _simple(expr: sp.Expr) -> bool:
+    """A number, or a modulus or its reciprocal, which needs no name of its own."""
+    return bool(expr.is_number) or expr.as_base_exp()[0].is_Symbol
+
+
+def _gauge(gauge: Gauge | None, components: tuple[int, ...]) -> Gauge | None:
+    if gauge is None:
+        return None
+    return replace(gauge, inputs=tuple(gauge.inputs[i] for i in components))
+
+
+def _outputs(kernel: Kernel, scene: Scene) -> Kernel:
+    """Outputs of live components, at their places in the scene's arrays."""
+    if kernel.name in LETTERS:
+        at = live(scene).strains if kernel.name == "strains" else live(scene).loads
+        parts = groups(LETTERS[kernel.name], at)
+        placed = ((o, 3 * (o.array in "vn") + o.index[0]) for o in kernel.outputs)
+        kept = tuple(_placed(o, i, parts) for o, i in placed if i in at)
+        return replace(kernel, outputs=kept)
+    if not kernel.outputs[0].index:
+        return kernel
+    at = live(scene).loads
+    entries = tuple(
+        replace(o, index=(at.index(o.index[0]), at.index(o.index[1])))
+        for o in kernel.outputs
+        if set(o.index) <= set(at)
+    )
+    if len(at) == 1:
+        return replace(kernel, outputs=(replace(entries[0], index=()),), dyad=None)
+    dyad = kernel.dyad
+    if dyad is not None:
+        dyad = replace(dyad, vector=tuple(dyad.vector[i] for i in at))
+    return replace(kernel, outputs=entries, dyad=dyad)
+
+
+def _placed(o: Output, component: int, parts: tuple[Group, ...]) -> Output:
+    (group,) = (g for g in parts if component in g.components)
+    return replace(o, array=group.array, index=group.place(component))
 
 
 def drop_dead(kernel: Kernel) -> Kernel:
@@ -29,7 +102,7 @@ def drop_dead(kernel: Kernel) -> Kernel:
         needed |= new
         todo.extend(sorted(new))
 
-    def live(assignments: tuple[Assignment, ...]) -> tuple[Assignment, ...]:
+    def kept(assignments: tuple[Assignment, ...]) -> tuple[Assignment, ...]:
         return tuple(a for a in assignments if a.name in needed)
 
-    return replace(kernel, body=live(kernel.body), constants=live(kernel.constants))
+    return replace(kernel, body=kept(kernel.body), constants=kept(kernel.constants))

@@ -1,8 +1,9 @@
 """Rewrites the naive forms into forms that hold in floating point.
 
 Each `Rule` is an exact identity between expressions, together with the definitions its right side
-needs. `apply` replaces literal occurrences and refuses a rule that finds none. The tests hold
-every rule twice: as an identity, and for its error in doubles beside that of the form it replaces.
+needs. `apply` replaces literal occurrences and refuses a rule that finds none;
+`rodproof.codegen.passes.choose` says which rules a function takes. The tests hold every rule
+twice: as an identity, and for its error in doubles beside that of the form it replaces.
 """
 
 from __future__ import annotations
@@ -66,13 +67,6 @@ class Rule:
     why: str
     constants: tuple[Assignment, ...] = ()
     dyad: Dyad | None = None
-
-
-def stabilise(kernel: Kernel) -> Kernel:
-    """The kernel with its rules applied in order."""
-    for rule in RULES[kernel.name]:
-        kernel = apply(rule, kernel)
-    return kernel
 
 
 def apply(rule: Rule, kernel: Kernel) -> Kernel:
@@ -275,7 +269,7 @@ c3, c6 = symbol("c3"), symbol("c6")
 across, coupled, remain = symbol("across"), symbol("coupled"), symbol("remain")
 
 
-def _complements() -> tuple[Pair, ...]:
+def _complements(*, coupling: bool) -> tuple[Pair, ...]:
     """The diagonal and the coupled entry of K^{-1} - share d d^T without a difference.
 
     In coordinates that make the reduced load a unit vector k the bracket is I - share k k^T; by
@@ -299,46 +293,71 @@ def _complements() -> tuple[Pair, ...]:
     )
     twisting = ((across + b3**2) * per_gap + remain * c3**2) / beta**2
     stretching = ((across + a3**2) * per_gap + remain * c6**2) / eta**2
-    coupling = (remain * c3 * c6 - (chirality * across + a3 * b3) * per_gap) / (beta * eta)
+    if coupling:
+        mixed = (remain * c3 * c6 - (chirality * across + a3 * b3) * per_gap) / (beta * eta)
+    else:  # iota = 0, and K^{-1} has no entry there to cancel
+        mixed = -share * d[2] * d[5]
     return (
         *plain,
         (before(2, 2), twisting),
         (before(5, 5), stretching),
-        (before(2, 5), coupling),
+        (before(2, 5), mixed),
     )
 
 
-COMPLEMENT_COMPLIANCE = Rule(
-    "complements as sums of squares",
-    _complements(),
-    (
-        *SOFTEN_DEFINITIONS,
-        Assignment(
-            "remain", sp.Piecewise((1, y <= gamma), (power, True), evaluate=False) / (1 + power)
+#: Without a load any direction serves. A floor under the reduced loads makes it that of the first
+#: live load: of m3 or n3 with what the coupling makes of it.
+FLOORS: dict[int, dict[str, sp.Expr]] = {
+    0: {"a1": tiny},
+    1: {"a2": tiny},
+    2: {"a3": tiny, "b3": chirality * tiny, "c3": tiny},
+    3: {"b1": tiny},
+    4: {"b2": tiny},
+    5: {
+        "b3": gap * sp.sqrt(per_gap) * tiny,
+        "c3": -chirality * sp.sqrt(per_gap) * tiny,
+        "c6": sp.sqrt(per_gap) * tiny,
+    },
+}
+
+
+def complement_compliance(
+    soften: tuple[Assignment, ...], first: int = 0, *, coupling: bool = True
+) -> Rule:
+    """The entries of the compliance that would cancel; ``first`` is the first live load."""
+    return Rule(
+        "complements as sums of squares",
+        _complements(coupling=coupling),
+        (
+            *soften,
+            Assignment(
+                "remain", sp.Piecewise((1, y <= gamma), (power, True), evaluate=False) / (1 + power)
+            ),
+            Assignment("per_size", 1 / size),
+            *(
+                Assignment(name, symbol("per_size") * (reduced + FLOORS[first].get(name, 0)))
+                for name, reduced in zip(
+                    ("a1", "a2", "a3", "b1", "b2", "b3", "c3", "c6"),
+                    (mu_1, mu_2, mu_3, nu_1, nu_2, nu_3, twist, dilatation),
+                    strict=True,
+                )
+            ),
+            Assignment("across", a1**2 + a2**2 + b1**2 + b2**2),
+            Assignment("coupled", a3**2 + gap * c6**2),
         ),
-        Assignment("per_size", 1 / size),
-        *(
-            Assignment(name, symbol("per_size") * reduced)
-            for name, reduced in zip(
-                ("a1", "a2", "a3", "b1", "b2", "b3", "c3", "c6"),
-                # without a load any direction serves, and the floor makes it this one
-                (mu_1 + tiny, mu_2, mu_3, nu_1, nu_2, nu_3, twist, dilatation),
-                strict=True,
-            )
-        ),
-        Assignment("across", a1**2 + a2**2 + b1**2 + b2**2),
-        Assignment("coupled", a3**2 + gap * c6**2),
-    ),
-    "at large loads K^{-1} and the rank-one term cancel along the load: 7e3 ulps near D = 0",
-    CHIRAL_CONSTANTS,
-)
+        "at large loads K^{-1} and the rank-one term cancel along the load: 7e3 ulps near D = 0",
+        CHIRAL_CONSTANTS,
+    )
+
+
+COMPLEMENT_COMPLIANCE = complement_compliance(SOFTEN_DEFINITIONS)
 
 directions = (a1, a2, c3, b1, b2, c6)
 
 DIRECT_COMPLIANCE = Rule(
     "strain direction from the reduced loads",
     tuple((row / y, k / modulus) for row, k, modulus in zip(e, directions, moduli, strict=True)),
-    COMPLEMENT_COMPLIANCE.definitions,
+    (),  # those of the complements
     "K^{-1} sigma and y leave the range of numbers where their quotient does not",
     CHIRAL_CONSTANTS,
 )
@@ -364,11 +383,14 @@ DIRECT_STIFFNESS = Rule(
 )
 
 
-def _rank_one(name: str, sign: int, dyad: Dyad, own: tuple[tuple[int, int], ...]) -> Rule:
+def _rank_one(
+    name: str, sign: int, dyad: Dyad, own: tuple[tuple[int, int], ...], *, coupling: bool = True
+) -> Rule:
     """The rank-one term with its factor and weight in one name; ``own`` entries keep K's part."""
     along = tuple(map(symbol, dyad.vector))
     rest = theory.stiffness_at_rest()
-    off = ((i, j) for i in range(6) for j in range(i + 1, 6) if (i, j) != (2, 5))
+    upper = ((i, j) for i in range(6) for j in range(i + 1, 6))
+    off = (entry for entry in upper if not coupling or entry != (2, 5))
     pairs = tuple((sign * factor * share * along[i] * along[j], dyad.term(i, j)) for i, j in off)
     kept = tuple(
         (
@@ -382,38 +404,12 @@ def _rank_one(name: str, sign: int, dyad: Dyad, own: tuple[tuple[int, int], ...]
     return Rule(name, pairs + kept, definitions, why, (), dyad)
 
 
-RANK_ONE_COMPLIANCE = _rank_one(
-    "rank-one term of the compliance",
-    -1,
-    Dyad("soft", "steep", tuple(s.name for s in d)),
-    (),
-)
+SOFT = Dyad("soft", "steep", tuple(s.name for s in d))
+RANK_ONE_COMPLIANCE = _rank_one("rank-one term of the compliance", -1, SOFT, ())
+RANK_ONE_ACHIRAL = _rank_one("rank-one term without coupling", -1, SOFT, (), coupling=False)
 RANK_ONE_STIFFNESS = _rank_one(
     "rank-one term of the stiffness",
     1,
     Dyad("stiff", "steep", tuple(s.name for s in t)),
     (*((i, i) for i in range(6)), (2, 5)),
 )
-
-RULES: dict[str, tuple[Rule, ...]] = {
-    "strains": (COMPLETE_DUAL_FORM, SCALE_RADIAL_FACTOR, REDUCE_STRAINS),
-    "loads": (COMPLETE_FORM, GROW_LOAD_FACTOR, REDUCE_LOADS),
-    "stored_energy": (SHARE_STORED_ENERGY, COMPLETE_FORM),
-    "complementary_energy": (SHARE_COMPLEMENTARY_ENERGY, COMPLETE_DUAL_FORM),
-    "compliance": (
-        COMPLETE_DUAL_FORM,
-        SCALE_RADIAL_FACTOR,
-        SPLIT_STRAIN_WEIGHT,
-        COMPLEMENT_COMPLIANCE,
-        DIRECT_COMPLIANCE,
-        RANK_ONE_COMPLIANCE,
-    ),
-    "stiffness": (
-        COMPLETE_FORM,
-        GROW_LOAD_FACTOR,
-        GROW_LOAD_WEIGHT,
-        FLOOR_STRAIN_RADIUS,
-        DIRECT_STIFFNESS,
-        RANK_ONE_STIFFNESS,
-    ),
-}

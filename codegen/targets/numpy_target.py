@@ -8,20 +8,25 @@ called through `_balanced`.
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from rodproof.codegen.count import cost
 from rodproof.codegen.kernel import Assignment, Kernel, KernelError, Output
 from rodproof.codegen.passes.order import order
-from rodproof.codegen.primitives import WorkShare
-from rodproof.codegen.scene import Scene
+from rodproof.codegen.scene import LOAD_NAMES, Scene
 from rodproof.codegen.targets import numpy_template as template
+from rodproof.codegen.targets.numpy_constants import (
+    all_have_values,
+    derived_constants,
+    needs_work_share,
+    print_constants,
+    used_constants,
+)
+from rodproof.codegen.targets.numpy_header import header
 from rodproof.codegen.targets.printer import PRODUCT, Printer, wrapped
-from rodproof.codegen.texts import STATEMENT_LABELS, STEP_TEXTS, TEXTS
+from rodproof.codegen.texts import FunctionText, function_text, step_text
 from rodproof.derivations.symbols import CONSTANTS
 
 INDENT = "    "
@@ -31,7 +36,7 @@ INDENT = "    "
 class Step:
     """A step as printed: the union of what the kernels assign in it.
 
-    ``rows`` says that its inputs are the six rows of a load or a strain.
+    ``rows`` says that its inputs are the rows of a load or a strain.
     """
 
     name: str
@@ -41,7 +46,7 @@ class Step:
 
     @property
     def rows(self) -> bool:
-        return len(self.inputs) == 6
+        return self.name.startswith("reduce")
 
 
 def print_module(
@@ -50,82 +55,80 @@ def print_module(
     """The module's text; ``verdicts`` adds a verdict to each statement of the header."""
     steps = {name: _step(name, kernels) for name in _step_names(kernels)}
     printer = Printer(_spelling(kernels))
+    words = {kernel.name: function_text(kernel, scene) for kernel in kernels}
     limited = [kernel for kernel in kernels if kernel.limit]
-    energies = any(expr.has(WorkShare) for kernel in kernels for expr in kernel.expressions())
     raising = bool(limited) and scene.at_limit == "raise"
     parts = [
-        header(scene, kernels, verdicts or {}) + "\n\n" + _imports(energies),
-        _constants(kernels) + (template.WORK_SHARE_TABLES if energies else ""),
-        *(_step_text(step, printer) for step in steps.values()),
+        header(scene, kernels, verdicts or {}) + "\n\n" + _imports(scene, kernels, words),
+        print_constants(scene, kernels),
+        *(_step_text(step, printer, scene) for step in steps.values()),
     ]
     parts += [template.BALANCED] if any(kernel.gauge for kernel in kernels) else []
-    parts += [template.WORK_SHARE] if energies else []
+    parts += [template.WORK_SHARE] if needs_work_share(kernels) else []
     if limited:
         parts.append(template.RAISE if raising else template.NAN)
     if raising:
         parts.append(_past_limit(limited[0], steps, printer))
-    parts.append(template.APPLY.substitute(run=template.RUN_RAISE if raising else template.RUN))
+    parts += _plumbing(scene, raising=raising)
+    default = " = ROD" if all_have_values(scene, kernels) else ""
     for kernel in kernels:
-        parts += [_body(kernel, steps, printer), _public(kernel)]
+        text = words[kernel.name]
+        parts += [_body(kernel, steps, printer, text), _public(kernel, text, default)]
     return "\n\n\n".join(part.strip("\n") for part in parts) + "\n"
 
 
-def header(scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str]) -> str:
-    """The module's docstring: scene, command, statements, domain, operation counts."""
-    statements = dict.fromkeys(s for kernel in kernels for s in kernel.statements())
-    cited = "; ".join(_statement(s, verdicts) for s in statements)
-    noted = "paper label, verdict; as corrected if refuted" if verdicts else "paper label"
-    answer = "an error" if scene.at_limit == "raise" else "nan"
-    lines = [
-        f'"""{scene.summary}',
-        "",
-        f"Scene {scene.name}, made by: rodproof generate {scene.name}",
-        "",
-        *textwrap.wrap(f"Statements it rests on ({noted}): {cited}.", 98, break_on_hyphens=False),
-        "",
-        f"Domain: loads with finite Q*(m, n)^(1/2); strains with Q(u, v) < 1, else {answer}.",
-        "",
-        "Operations a point: arithmetic, transcendental, energy shares, temporaries",
+def _imports(scene: Scene, kernels: tuple[Kernel, ...], words: Mapping[str, FunctionText]) -> str:
+    """Imports, names of types, and the tables that the functions look things up in."""
+    derived = derived_constants(kernels)
+    heads = {n: h for text in words.values() for n, h in (text.inputs | text.outputs).items()}
+    standard = ["from fractions import Fraction"] if derived else []
+    standard += ["from functools import cached_property"] if needs_work_share(kernels) else []
+    used = {s.name for kernel in kernels for e in kernel.expressions() for s in e.free_symbols}
+    guards = [template.LOG_MAX] if "log_max" in used else []
+    if guards or "tiny" in used or any(kernel.gauge for kernel in kernels):
+        guards = [template.TINY, *guards]
+    pair = any(len(text.outputs) == 2 for text in words.values())
+    text = template.IMPORTS.substitute(
+        field_import=", field"
+        if derived or set(scene.fixed) & set(used_constants(kernels))
+        else "",
+        standard_imports="\n".join(standard) or "$",
+        pair="Pair = tuple[Array, Array]" if pair else "$",
+        limits="\n".join(guards) or "$",
+        heads=_table("HEADS", {f'"{name}"': str(head) for name, head in heads.items()}),
+    )
+    return text.replace("$\n", "")
+
+
+def _table(name: str, entries: Mapping[str, str]) -> str:
+    """A dictionary, on as few lines as hold it."""
+    pieces = [f"{key}: {value}," for key, value in entries.items()]
+    line = f"{name} = {{{' '.join(pieces)[:-1]}}}"
+    if len(line) <= 100:
+        return line
+    lines = [INDENT]
+    for piece in pieces:
+        if len(lines[-1] + piece) > 100:
+            lines.append(INDENT)
+        lines[-1] += piece + " "
+    return "\n".join([f"{name} = {{", *(line.rstrip() for line in lines), "}"])
+
+
+def _plumbing(scene: Scene, *, raising: bool) -> list[str]:
+    """The functions that take arrays in, run a body over blocks, and hand results out."""
+    first = scene.layout == "first"
+    places = template.FIRST if first else template.LAST
+    run = template.RUN_RAISE if raising else template.RUN
+    whole = template.APPLY_FIRST if first else template.APPLY_LAST
+    return [
+        template.ARGUMENTS.substitute(places, dtype=template.DTYPES[scene.precision]),
+        whole.substitute(run=run.substitute(outputs=template.OUTPUTS[scene.layout])),
     ]
-    for kernel in kernels:
-        c = cost(kernel)
-        counts = (c.arithmetic, c.transcendental, c.special, c.temporaries)
-        lines.append(f"    {kernel.name:<20}" + "".join(f"{count:>5}" for count in counts))
-    return "\n".join([*lines, '"""'])
-
-
-def _statement(statement: str, verdicts: Mapping[str, str]) -> str:
-    notes = [STATEMENT_LABELS.get(statement, ""), verdicts.get(statement, "")]
-    return statement + "".join(f" {note}" for note in notes if note)
-
-
-def _imports(energies: bool) -> str:
-    cached = "from functools import cached_property\n" if energies else ""
-    return template.IMPORTS.replace("$cached_import\n", cached)
 
 
 def _spelling(kernels: tuple[Kernel, ...]) -> dict[str, str]:
     derived = (a.name for kernel in kernels for a in kernel.constants)
     return {name: f"c.{name}" for name in (*(s.name for s in CONSTANTS), *derived)}
-
-
-def _constants(kernels: tuple[Kernel, ...]) -> str:
-    """The Constants record with the fields that the kernels derive from it."""
-    derived = {a.name: a.expr for kernel in kernels for a in kernel.constants}
-    printer = Printer({})
-    hidden = "float = field(init=False, repr=False, compare=False)"
-    fields = [f"    {name}: {hidden}" for name in derived]
-    values = [f'            "{name}": {printer.text(expr)},' for name, expr in derived.items()]
-    used = {"beta", "eta", "iota"} | {
-        s.name for expr in derived.values() for s in expr.free_symbols
-    }
-    exact = [s.name for s in CONSTANTS if s.name in used]
-    return template.CONSTANTS.substitute(
-        derived_fields="\n".join(fields),
-        derived_values="\n".join(values),
-        exact=", ".join(exact),
-        given=", ".join(f"self.{name}" for name in exact),
-    )
 
 
 def _step_names(kernels: tuple[Kernel, ...]) -> tuple[str, ...]:
@@ -157,14 +160,15 @@ def _used_outside(kernel: Kernel, step: str) -> set[str]:
     return used | ({kernel.gauge.square} if kernel.gauge else set())
 
 
-def _step_text(step: Step, printer: Printer) -> str:
+def _step_text(step: Step, printer: Printer, scene: Scene) -> str:
     """A step as a private function that returns a tuple, its last result being the square."""
     taken = f"{_rows(step.inputs)}: Rows" if step.rows else f"{step.inputs[0]}: Array"
     single = len(step.results) == 1 and not step.rows
     lines = [f"def _{step.name}({taken}, c: Constants) -> {'Array' if single else 'Rows'}:"]
-    lines += [f'{INDENT}"""{STEP_TEXTS[step.name]}"""']
+    lines += [f'{INDENT}"""{step_text(step.name, scene)}"""']
     if step.rows:
-        lines += [f"{INDENT}{', '.join(step.inputs)} = {_rows(step.inputs)}"]
+        comma = "," if len(step.inputs) == 1 else ""
+        lines += [f"{INDENT}{', '.join(step.inputs)}{comma} = {_rows(step.inputs)}"]
     used = {s.name for a in step.body for s in a.expr.free_symbols}
     for limit in sorted({"tiny", "log_max"} & used):
         lines += [f"{INDENT}{limit} = {limit.upper()}[{step.inputs[0]}.dtype]"]
@@ -176,8 +180,8 @@ def _step_text(step: Step, printer: Printer) -> str:
 
 
 def _rows(inputs: tuple[str, ...]) -> str:
-    """What six rows are called: loads, strains, or strains from rest."""
-    return "loads" if inputs[0] == "m1" else "strains" if inputs[5] == "v3" else "rest"
+    """What rows are called: loads, strains, or strains from rest."""
+    return "loads" if inputs[0] in LOAD_NAMES else "rest" if "stretch" in inputs else "strains"
 
 
 def _assign(a: Assignment, printer: Printer) -> list[str]:
@@ -208,18 +212,18 @@ def _call(step: Step, kernel: Kernel) -> list[str]:
         if set(values) <= {"_"}:
             lines = [f"_, {call}"]
         else:
-            lines = [f"values, {call}", f"{', '.join(values)} = values"]
+            taken = ", ".join(values) if len(values) > 1 else f"({values[0]},)"
+            lines = [f"values, {call}", f"{taken} = values"]
     if kernel.limit and kernel.limit.quantity in step.results:
         lines += [f"{kernel.limit.quantity} = _within_limit({kernel.limit.quantity})"]
     return [INDENT + line for line in lines]
 
 
-def _body(kernel: Kernel, steps: dict[str, Step], printer: Printer) -> str:
+def _body(kernel: Kernel, steps: dict[str, Step], printer: Printer, text: FunctionText) -> str:
     """The private function that works on one block."""
-    arrays = tuple(dict.fromkeys(o.array for o in kernel.outputs))
-    given = ", ".join(f"{a}: Array" for a in arrays)
+    given = ", ".join(f"{a}: Array" for a in text.outputs)
     lines = [f"def _{kernel.name}({_rows(kernel.inputs)}: Rows, c: Constants, {given}) -> None:"]
-    lines += [f'{INDENT}"""{TEXTS[kernel.name].equation}"""']
+    lines += [f'{INDENT}"""{text.equation}"""']
     vector = kernel.dyad.vector if kernel.dyad else ()
     spelled = {name: f"{name[0]}[{i}]" for i, name in enumerate(vector)}
     called: set[str] = set()
@@ -236,7 +240,9 @@ def _body(kernel: Kernel, steps: dict[str, Step], printer: Printer) -> str:
         elif a.name in spelled:
             if a.name == vector[0]:
                 letter = a.name[0]
-                lines += [f"{INDENT}{letter} = np.empty((6, {like}.size), {like}.dtype)"]
+                lines += [
+                    f"{INDENT}{letter} = np.empty(({len(vector)}, {like}.size), {like}.dtype)"
+                ]
             lines += _store(spelled[a.name], a.expr, printer)
         elif not a.step:
             lines += _assign(a, printer)
@@ -247,12 +253,19 @@ def _uses(expr: sp.Expr, name: str) -> bool:
     return any(s.name == name for s in expr.free_symbols)
 
 
+def _shifted(kernel: Kernel) -> bool:
+    """Whether v3 is among the inputs, and v3 - 1 is to be formed."""
+    return any(a.name == "stretch" for a in kernel.body)
+
+
 def _rest(kernel: Kernel, printer: Printer) -> list[str]:
     """``rest``, the strains from rest, in place of the assignment to ``stretch``."""
     (stretch,) = (a for a in kernel.body if a.name == "stretch")
-    last = {s: sp.Symbol("strains[5]") for s in stretch.expr.free_symbols}
+    place = len(kernel.inputs) - 1
+    last = {s: sp.Symbol(f"strains[{place}]") for s in stretch.expr.free_symbols}
     shifted = printer.text(stretch.expr.xreplace(last))
-    return [f"{INDENT}rest = [*strains[:5], {shifted}]"]
+    before = f"*strains[:{place}], " if place else ""
+    return [f"{INDENT}rest = [{before}{shifted}]"]
 
 
 def _outputs(kernel: Kernel, printer: Printer) -> list[str]:
@@ -262,7 +275,7 @@ def _outputs(kernel: Kernel, printer: Printer) -> list[str]:
         return [line for o in kernel.outputs for line in _store(_place(o), o.expr, printer)]
     letter, place = dyad.vector[0][0], dyad.array
     lines = [
-        f"{INDENT}for i in range(6):",
+        f"{INDENT}for i in range({len(dyad.vector)}):",
         f"{INDENT * 2}np.multiply({dyad.weight} * {letter}[i], {letter}[i:], out={place}[i, i:])",
     ]
     for o in kernel.outputs:
@@ -275,7 +288,7 @@ def _outputs(kernel: Kernel, printer: Printer) -> list[str]:
             lines += _store(_place(o), o.expr, printer)
     return [
         *lines,
-        f"{INDENT}for i in range(1, 6):",
+        f"{INDENT}for i in range(1, {len(dyad.vector)}):",
         f"{INDENT * 2}{place}[i, :i] = {place}[:i, i]",
     ]
 
@@ -292,7 +305,7 @@ def _store(place: str, expr: sp.Expr, printer: Printer) -> list[str]:
     else:
         above, below = printer.factors(expr)
         if below or len(above) < 2:
-            raise KernelError(f"output {place}: {expr} is neither a product nor a sum")
+            return _divide(place, above, below, printer)
         *front, back = sorted(above, key=lambda factor: bool(factor.is_Add))
         left = " * ".join(printer.text(factor, PRODUCT) for factor in front)
         call = f"np.multiply({left}, {printer.text(back)}, out={place})"
@@ -306,32 +319,40 @@ def _store(place: str, expr: sp.Expr, printer: Printer) -> list[str]:
     return _broken(f"{place}[...] = (", expr, printer)
 
 
+def _divide(place: str, above: list[sp.Expr], below: list[sp.Expr], printer: Printer) -> list[str]:
+    """A quotient, or a value that is there already."""
+    if len(below) == 1 and above:
+        over, under = (printer.text(sp.Mul(*part)) for part in (above, below))
+        return [f"{INDENT}np.divide({over}, {under}, out={place})"]
+    value = printer.text(sp.Mul(*above) / sp.Mul(*below))
+    return [f"{INDENT}{place if '[' in place else f'{place}[...]'} = {value}"]
+
+
 def _past_limit(kernel: Kernel, steps: dict[str, Step], printer: Printer) -> str:
     assert kernel.limit is not None
     step = next(s for s in steps.values() if kernel.limit.quantity in s.results)
-    lines = _rest(kernel, printer)
+    lines = _rest(kernel, printer) if _shifted(kernel) else []
     lines += [f'{INDENT}with np.errstate(over="ignore", invalid="ignore"):']
-    lines += [f"{INDENT * 2}*_, {kernel.limit.quantity} = _{step.name}(rest, c)"]
+    lines += [f"{INDENT * 2}*_, {kernel.limit.quantity} = _{step.name}({_rows(step.inputs)}, c)"]
     return template.PAST_LIMIT.substitute(reduce="\n".join(lines), sentence=kernel.limit.sentence)
 
 
-def _public(kernel: Kernel) -> str:
-    """The public function."""
-    text = TEXTS[kernel.name]
-    first, second = text.inputs
+def _public(kernel: Kernel, text: FunctionText, default: str) -> str:
+    """The public function; ``default`` is that of the constants, if they have one."""
     pair = len(text.outputs) == 2
     kind = "Pair" if pair else "Array"
     names = ", ".join(text.outputs)
-    arguments = f"{first}: ArrayLike, {second}: ArrayLike, constants: Constants"
+    given = ", ".join(f"{name}: ArrayLike" for name in text.inputs)
+    arguments = f"{given}, constants: Constants{default}"
     lines = wrapped(
         f"def {kernel.name}(", [arguments, f"out: {kind} | None = None"], f") -> {kind}:", ", ", ""
     )
     lines += [f'    """{text.doc}', '    """'] if "\n" in text.doc else [f'    """{text.doc}"""']
-    inputs = f'{{"{first}": {first}, "{second}": {second}}}'
-    heads = "{" + ", ".join(f'"{name}": {head}' for name, head in text.outputs.items()) + "}"
+    inputs = "{" + ", ".join(f'"{name}": {name}' for name in text.inputs) + "}"
+    results = ", ".join(f'"{name}"' for name in text.outputs) + ("" if pair else ",")
     lines += wrapped(
         f"{names if pair else f'({names},)'} = _apply(",
-        [f"_{kernel.name}", inputs, "constants", heads, "out"],
+        [f"_{kernel.name}", inputs, "constants", f"({results})", "out"],
         ")",
         ", ",
         INDENT,

@@ -7,69 +7,88 @@ from __future__ import annotations
 
 from string import Template
 
-IMPORTS = """\
+IMPORTS = Template("""\
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from fractions import Fraction
-$cached_import
+from dataclasses import dataclass$field_import
+$standard_imports
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
-Pair = tuple[Array, Array]
+$pair
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
-Heads = dict[str, tuple[int, ...]]  # the leading shape of each result
 
 BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
-TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
-LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
-"""
+$limits
+$heads
+""")
+
+TINY = "TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}"
+LOG_MAX = (
+    "LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number"
+)
 
 CONSTANTS = Template('''\
-@dataclass(frozen=True)
+@dataclass($decorator)
 class Constants:
-    """The seven constants of the rod, checked on construction (ValueError).
-
-    alpha, beta, iota are lengths, gamma is a force, zeta, eta and p are plain numbers; all but
-    iota are positive and beta^2 eta^2 - iota^2 > 0.
+    """$doc
     """
 
-    alpha: float
-    beta: float
-    zeta: float
-    eta: float
-    iota: float
-    gamma: float
-    p: float
-$derived_fields
+$fields$derived_fields
 
     def __post_init__(self) -> None:
-        for name in ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p"):
+        for name in $names:
             value = float(getattr(self, name))
+$value_check
+            object.__setattr__(self, name, value)
+$exact$coupling$derived''')
+
+SIGNED_CHECK = """\
             if not math.isfinite(value) or (value <= 0 and name != "iota"):
                 rule = "a finite number" if name == "iota" else "positive and finite"
-                raise ValueError(f"Constants: {name} must be {rule}, not {value}")
-            object.__setattr__(self, name, value)
-        exact = (Fraction(v) for v in ($given))
-        $exact = exact
+                raise ValueError(f"Constants: {name} must be {rule}, not {value}")"""
+
+POSITIVE_CHECK = """\
+            if not 0 < value < math.inf:
+                raise ValueError(f"Constants: {name} must be positive and finite, not {value}")"""
+
+COUPLING_CHECK = """\
         if not beta**2 * eta**2 - iota**2 > 0:
             raise ValueError(
                 "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
                 f" not beta={self.beta}, eta={self.eta}, iota={self.iota}"
             )
+"""
+
+DERIVED = Template("""\
         derived = {
-$derived_values
+$values
         }
         for name, ratio in derived.items():  # exact, then rounded once
             if abs(ratio) >= 2**1023:
                 raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
             object.__setattr__(self, name, float(ratio))
+""")
+
+OF_MODULI = Template('''
+    @classmethod
+    def of_moduli(
+        cls,
+$arguments        *,
+$moduli    ) -> Constants:
+        """Constants of the rod with these moduli at rest.
+
+        $meaning
+        """
+        return cls(
+$values
+        )
 ''')
 
 WORK_SHARE_TABLES = '''
@@ -187,53 +206,87 @@ $reduce
     return ValueError(f"$sentence: {bad.size} of {q.size} do not, {first}")
 ''')
 
-APPLY = Template('''\
+ARGUMENTS = Template('''\
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
-    """The inputs as float arrays of one type and shape (3, ...), and the trailing shape."""
-    arrays = [np.asarray(value) for value in inputs.values()]
-    for name, array in zip(inputs, arrays, strict=True):
-        if array.dtype.kind not in "iuf" or array.shape[:1] != (3,):
+    """The inputs as float arrays of one type, components first, and the trailing shape."""
+    arrays = {name: np.asarray(value) for name, value in inputs.items()}
+    for name, array in arrays.items():
+        head = HEADS[name]
+        if array.dtype.kind not in "iuf" or array.shape[$leading] != head:
+            wanted = ", ".join($wanted)
             kind = f"{array.dtype} of shape {array.shape}"
-            raise ValueError(f"{name} must hold real numbers in the shape (3, ...), not {kind}")
-    dtype = np.float32 if np.result_type(*arrays) == np.float32 else np.float64
+            raise ValueError(f"{name} must hold real numbers in the shape ({wanted}), not {kind}")
+    dtype = $dtype
     try:
-        shape = np.broadcast_shapes(*(array.shape[1:] for array in arrays))
+        shape = np.broadcast_shapes(*(a.shape[$trailing] for name, a in arrays.items()))
     except ValueError:
-        shapes = " and ".join(f"{n} {a.shape}" for n, a in zip(inputs, arrays, strict=True))
-        raise ValueError(f"{shapes} do not broadcast after their first axis") from None
-    aligned = (a.reshape(3, *(1,) * (len(shape) + 1 - a.ndim), *a.shape[1:]) for a in arrays)
-    return [np.broadcast_to(a, (3, *shape)).astype(dtype, copy=False) for a in aligned], shape
+        shapes = " and ".join(f"{name} {a.shape}" for name, a in arrays.items())
+        raise ValueError(f"{shapes} do not broadcast $after") from None
+    ready = []
+    for name, array in arrays.items():
+        head = HEADS[name]
+$align
+        array = array.reshape((*head, *fill, *array.shape[len(head) :]))
+        ready.append(np.broadcast_to(array, (*head, *shape)).astype(dtype, copy=False))
+    return ready, shape
 
 
-def _results(heads: Heads, shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
+def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
     """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
-    shapes = [(*head, *shape) for head in heads.values()]
+    shapes = [$result for name in names]
     if out is None:
         return [np.empty(wanted, dtype) for wanted in shapes]
     given = out if isinstance(out, tuple) else (out,)
-    if len(given) != len(heads):
-        raise ValueError(f"out must be {len(heads)} arrays, for {' and '.join(heads)}")
-    for name, array, wanted in zip(heads, given, shapes, strict=True):
+    if len(given) != len(names):
+        raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
+    for name, array, wanted in zip(names, given, shapes, strict=True):
         kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
         if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
             raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
     return list(given)
+''')
 
+#: How inputs are brought to (components, trailing shape), by layout.
+FIRST = {
+    "leading": ": len(head)",
+    "wanted": '[*map(str, head), "..."]',
+    "trailing": "len(HEADS[name]) :",
+    "after": "after their first axis",
+    "align": """\
+        fill = (1,) * (len(head) + len(shape) - array.ndim)""",
+    "result": "(*HEADS[name], *shape)",
+}
+LAST = {
+    "leading": "array.ndim - len(head) :",
+    "wanted": '["...", *map(str, head)]',
+    "trailing": ": a.ndim - len(HEADS[name])",
+    "after": "before their last axis",
+    "align": """\
+        array = np.moveaxis(array, -1, 0) if head else array
+        fill = (1,) * (len(head) + len(shape) - array.ndim)""",
+    "result": "(*shape, *HEADS[name])",
+}
+DTYPES = {
+    "input": "np.float32 if np.result_type(*arrays.values()) == np.float32 else np.float64",
+    "float32": "np.float32",
+    "float64": "np.float64",
+}
 
+APPLY_FIRST = Template('''\
 def _apply(
-    body: Callable[..., None], inputs: Inputs, c: Constants, heads: Heads, out: Any
+    body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
     """Runs ``body`` over blocks of points, straight into the results where that is safe."""
     arrays, shape = _arguments(inputs)
-    results = _results(heads, shape, arrays[0].dtype, out)
+    results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    rows = [row for array in arrays for row in array.reshape(3, points)]
+    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
     direct = all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
     flat = [
-        (r if direct else np.empty(r.shape, r.dtype)).reshape(*head, points)
-        for r, head in zip(results, heads.values(), strict=True)
+        (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
+        for name, r in zip(names, results, strict=True)
     ]
     with np.errstate(under="ignore"):
         for start in range(0, points, BLOCK):
@@ -245,10 +298,42 @@ $run
     return results
 ''')
 
-RUN_RAISE = """\
+APPLY_LAST = Template('''\
+def _apply(
+    body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
+) -> list[Array]:
+    """Runs ``body`` over blocks of points, components first in them, last in the results."""
+    arrays, shape = _arguments(inputs)
+    results = _results(names, shape, arrays[0].dtype, out)
+    points = math.prod(shape)
+    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    direct = all(
+        r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
+    )
+    whole = [
+        (r if direct else np.empty(r.shape, r.dtype)).reshape(points, *HEADS[name])
+        for name, r in zip(names, results, strict=True)
+    ]
+    with np.errstate(under="ignore"):
+        for start in range(0, points, BLOCK):
+            part = slice(start, min(start + BLOCK, points))
+            size = part.stop - part.start
+            flat = [np.empty((*HEADS[name], size), arrays[0].dtype) for name in names]
+$run
+            for values, block in zip(whole, flat, strict=True):
+                values[part] = np.moveaxis(block, -1, 0)
+    if not direct:
+        for result, values in zip(results, whole, strict=True):
+            result[...] = values.reshape(result.shape)
+    return results
+''')
+
+#: The call of the body for each policy at the limit and layout, by how an output is written to.
+RUN_RAISE = Template("""\
             try:
-                body([row[part] for row in rows], c, *(array[..., part] for array in flat))
+                body([row[part] for row in rows], c, *$outputs)
             except _PastLimit:
-                raise _past_limit(rows, c, shape) from None"""
-RUN = """\
-            body([row[part] for row in rows], c, *(array[..., part] for array in flat))"""
+                raise _past_limit(rows, c, shape) from None""")
+RUN = Template("""\
+            body([row[part] for row in rows], c, *$outputs)""")
+OUTPUTS = {"first": "(array[..., part] for array in flat)", "last": "flat"}

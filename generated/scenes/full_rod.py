@@ -11,7 +11,7 @@ proved; hess-m-u reading; hess-m-u3 reading; hess-m-v reading; hess-m-v3 reading
 refuted; hess-m3-v reading; hess-m3-v3 refuted; hess-n-v reading; hess-n-v3 reading; hess-n3-v3
 reading; wstar-gradient Section 3.1 proved.
 
-Domain: loads with finite Q*(m, n)^(1/2); strains with Q(u, v) < 1, else an error.
+Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
 Operations a point: arithmetic, transcendental, energy shares, temporaries
     strains                50    4    0   17
@@ -38,18 +38,21 @@ Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
-Heads = dict[str, tuple[int, ...]]  # the leading shape of each result
 
 BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
+HEADS = {
+    "m": (3,), "n": (3,), "u": (3,), "v": (3,), "w": (), "w_star": (), "stiff": (6, 6),
+    "soft": (6, 6),
+}
 
 
 @dataclass(frozen=True)
 class Constants:
     """The seven constants of the rod, checked on construction (ValueError).
 
-    alpha, beta, iota are lengths, gamma is a force, zeta, eta and p are plain numbers; all but
+    alpha, beta and iota are lengths, gamma is a force, zeta, eta and p are plain numbers; all but
     iota are positive and beta^2 eta^2 - iota^2 > 0.
     """
 
@@ -126,7 +129,7 @@ class Constants:
 
 
 def _reduce_loads(loads: Rows, c: Constants) -> Rows:
-    """Loads over their moduli, the linear rod's strains, and Q*(m, n) in squares."""
+    """Loads over their moduli, the linear rod's strains, and Q* in squares."""
     m1, m2, m3, n1, n2, n3 = loads
     mu_1 = c.per_alpha * m1
     mu_2 = c.per_alpha * m2
@@ -151,7 +154,7 @@ def _soften(y: Array, c: Constants) -> Rows:
 
 
 def _reduce_strains(rest: Rows, c: Constants) -> Rows:
-    """Strains times their moduli, the linear rod's loads, and Q(u, v) in squares."""
+    """Strains times their moduli, the linear rod's loads, and Q in squares."""
     u1, u2, u3, v1, v2, stretch = rest
     kappa_1 = c.alpha * u1
     kappa_2 = c.alpha * u2
@@ -257,31 +260,38 @@ def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueErr
 
 
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
-    """The inputs as float arrays of one type and shape (3, ...), and the trailing shape."""
-    arrays = [np.asarray(value) for value in inputs.values()]
-    for name, array in zip(inputs, arrays, strict=True):
-        if array.dtype.kind not in "iuf" or array.shape[:1] != (3,):
+    """The inputs as float arrays of one type, components first, and the trailing shape."""
+    arrays = {name: np.asarray(value) for name, value in inputs.items()}
+    for name, array in arrays.items():
+        head = HEADS[name]
+        if array.dtype.kind not in "iuf" or array.shape[: len(head)] != head:
+            wanted = ", ".join([*map(str, head), "..."])
             kind = f"{array.dtype} of shape {array.shape}"
-            raise ValueError(f"{name} must hold real numbers in the shape (3, ...), not {kind}")
-    dtype = np.float32 if np.result_type(*arrays) == np.float32 else np.float64
+            raise ValueError(f"{name} must hold real numbers in the shape ({wanted}), not {kind}")
+    dtype = np.float32 if np.result_type(*arrays.values()) == np.float32 else np.float64
     try:
-        shape = np.broadcast_shapes(*(array.shape[1:] for array in arrays))
+        shape = np.broadcast_shapes(*(a.shape[len(HEADS[name]) :] for name, a in arrays.items()))
     except ValueError:
-        shapes = " and ".join(f"{n} {a.shape}" for n, a in zip(inputs, arrays, strict=True))
+        shapes = " and ".join(f"{name} {a.shape}" for name, a in arrays.items())
         raise ValueError(f"{shapes} do not broadcast after their first axis") from None
-    aligned = (a.reshape(3, *(1,) * (len(shape) + 1 - a.ndim), *a.shape[1:]) for a in arrays)
-    return [np.broadcast_to(a, (3, *shape)).astype(dtype, copy=False) for a in aligned], shape
+    ready = []
+    for name, array in arrays.items():
+        head = HEADS[name]
+        fill = (1,) * (len(head) + len(shape) - array.ndim)
+        array = array.reshape((*head, *fill, *array.shape[len(head) :]))
+        ready.append(np.broadcast_to(array, (*head, *shape)).astype(dtype, copy=False))
+    return ready, shape
 
 
-def _results(heads: Heads, shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
+def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
     """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
-    shapes = [(*head, *shape) for head in heads.values()]
+    shapes = [(*HEADS[name], *shape) for name in names]
     if out is None:
         return [np.empty(wanted, dtype) for wanted in shapes]
     given = out if isinstance(out, tuple) else (out,)
-    if len(given) != len(heads):
-        raise ValueError(f"out must be {len(heads)} arrays, for {' and '.join(heads)}")
-    for name, array, wanted in zip(heads, given, shapes, strict=True):
+    if len(given) != len(names):
+        raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
+    for name, array, wanted in zip(names, given, shapes, strict=True):
         kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
         if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
             raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
@@ -289,19 +299,19 @@ def _results(heads: Heads, shape: tuple[int, ...], dtype: Any, out: Any) -> list
 
 
 def _apply(
-    body: Callable[..., None], inputs: Inputs, c: Constants, heads: Heads, out: Any
+    body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
     """Runs ``body`` over blocks of points, straight into the results where that is safe."""
     arrays, shape = _arguments(inputs)
-    results = _results(heads, shape, arrays[0].dtype, out)
+    results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    rows = [row for array in arrays for row in array.reshape(3, points)]
+    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
     direct = all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
     flat = [
-        (r if direct else np.empty(r.shape, r.dtype)).reshape(*head, points)
-        for r, head in zip(results, heads.values(), strict=True)
+        (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
+        for name, r in zip(names, results, strict=True)
     ]
     with np.errstate(under="ignore"):
         for start in range(0, points, BLOCK):
@@ -317,7 +327,7 @@ def _apply(
 
 
 def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
-    """u = (gamma^p + Q*^(p/2))^(-1/p) (K^-1 (m, n))_u, v - e3 likewise (eq:uconst, eq:vconst)."""
+    """(u, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n)."""
     values, size, y, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
     *_, factor = _soften(y, c)
@@ -335,17 +345,17 @@ def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
 
 
 def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
-    """Strains u, v (3, ...) under the contact couple m and force n (eq:uconst to eq:v3const).
+    """Strains u, v under the loads m, n (eq:uconst to eq:v3const).
 
-    m (3, ...) in force times length, n (3, ...) in force, with Q*(m, n)^(1/2) finite.
-    u comes in 1/length, v is plain; at rest u = 0, v = (0, 0, 1).
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, v (3, ...) plain; at rest u = 0, v = (0, 0, 1).
     """
-    u, v = _apply(_strains, {"m": m, "n": n}, constants, {"u": (3,), "v": (3,)}, out)
+    u, v = _apply(_strains, {"m": m, "n": n}, constants, ("u", "v"), out)
     return u, v
 
 
 def _loads(strains: Rows, c: Constants, m: Array, n: Array) -> None:
-    """m = gamma (1 - Q^(p/2))^(-1/p) (K (u, v - e3))_m, n likewise (eq:mconst, eq:nconst)."""
+    """(m, n) = gamma (1 - Q^(p/2))^(-1/p) K (u, v - e3)."""
     rest = [*strains[:5], strains[5] - 1]
     with np.errstate(over="ignore", invalid="ignore"):
         kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
@@ -364,17 +374,18 @@ def _loads(strains: Rows, c: Constants, m: Array, n: Array) -> None:
 
 
 def loads(u: ArrayLike, v: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
-    """Contact couple m and force n (3, ...) at the strains u, v (eq:mconst to eq:n3const).
+    """Loads m, n at the strains u, v (eq:mconst to eq:n3const).
 
-    u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1 (eq:strainlimiting).
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
+    Answers m (3, ...) in force times length, n (3, ...) in force.
     Near the limit the strains hardly determine the loads.
     """
-    m, n = _apply(_loads, {"u": u, "v": v}, constants, {"m": (3,), "n": (3,)}, out)
+    m, n = _apply(_loads, {"u": u, "v": v}, constants, ("m", "n"), out)
     return m, n
 
 
 def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
-    """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of load times strain."""
+    """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
     rest = [*strains[:5], strains[5] - 1]
     _, _, x, q = _balanced(_reduce_strains, rest, c)
     q = _within_limit(q)
@@ -388,14 +399,14 @@ def stored_energy(
 ) -> Array:
     """Stored energy W per length, in force (eq:stenergy), with the trailing shape.
 
-    u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1 (eq:strainlimiting).
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
     """
-    (w,) = _apply(_stored_energy, {"u": u, "v": v}, constants, {"w": ()}, out)
+    (w,) = _apply(_stored_energy, {"u": u, "v": v}, constants, ("w",), out)
     return w
 
 
 def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
-    """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of load times strain."""
+    """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
     _, _, y, _ = _balanced(_reduce_loads, loads, c)
     ratio, power, factor = _soften(y, c)
     strain = factor * y
@@ -408,9 +419,9 @@ def complementary_energy(
 ) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
-    m (3, ...) in force times length, n (3, ...) in force, with Q*(m, n)^(1/2) finite.
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
     """
-    (w_star,) = _apply(_complementary_energy, {"m": m, "n": n}, constants, {"w_star": ()}, out)
+    (w_star,) = _apply(_complementary_energy, {"m": m, "n": n}, constants, ("w_star",), out)
     return w_star
 
 
@@ -452,10 +463,10 @@ def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
 def stiffness(u: ArrayLike, v: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
     """Stiffness d(m, n)/d(u, v), (6, 6, ...), symmetric positive definite (Section 3.4).
 
-    u (3, ...) in 1/length and v (3, ...) plain, with Q(u, v) < 1 (eq:strainlimiting).
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
     Rows and columns are ordered (m1, m2, m3, n1, n2, n3) and (u1, u2, u3, v1, v2, v3).
     """
-    (stiff,) = _apply(_stiffness, {"u": u, "v": v}, constants, {"stiff": (6, 6)}, out)
+    (stiff,) = _apply(_stiffness, {"u": u, "v": v}, constants, ("stiff",), out)
     return stiff
 
 
@@ -514,8 +525,8 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
 def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
 
-    m (3, ...) in force times length, n (3, ...) in force, with Q*(m, n)^(1/2) finite.
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
     Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
     """
-    (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, {"soft": (6, 6)}, out)
+    (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, ("soft",), out)
     return soft

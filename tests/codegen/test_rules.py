@@ -13,39 +13,56 @@ import sympy as sp
 from rodproof.codegen import lower, scene
 from rodproof.codegen.kernel import Kernel, KernelError, Output
 from rodproof.codegen.passes import stabilise as rules
+from rodproof.codegen.passes import stabilise_p2 as square
+from rodproof.codegen.passes.choose import GENERAL, Case
+from rodproof.codegen.passes.choose import rules as chain
 from rodproof.codegen.passes.order import order
-from rodproof.codegen.passes.stabilise import RULES, Rule, apply
+from rodproof.codegen.passes.stabilise import Rule, apply
 from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.targets.mpmath_target import Evaluator
 from rodproof.derivations.theory import constitutive as theory
 
 NAIVE = {kernel.name: kernel for kernel in lower.lower(scene.committed("full_rod"))}
-STEPS = [(name, k) for name, chain in RULES.items() for k in range(len(chain))]
+CASES = {
+    "general": GENERAL,
+    "achiral": Case(achiral=True),
+    "p=2": Case(square=True),
+    "p=2, achiral, from n1": Case(square=True, achiral=True, first=3),
+}
+STEPS = [
+    pytest.param(case, name, k, id=f"{label}-{name}-{rule.name}")
+    for label, case in CASES.items()
+    for name in NAIVE
+    for k, rule in enumerate(chain(name, case))
+    if case == GENERAL or rule not in chain(name)
+]
 
 
-def before_and_after(name: str, k: int) -> tuple[Kernel, Kernel]:
+def before_and_after(name: str, k: int, case: Case) -> tuple[Kernel, Kernel]:
     kernel = NAIVE[name]
-    for rule in RULES[name][:k]:
+    for rule in chain(name, case)[:k]:
         kernel = apply(rule, kernel)
-    return order(kernel), order(apply(RULES[name][k], kernel))
+    return order(kernel), order(apply(chain(name, case)[k], kernel))
 
 
-def point(name: str, rng: random.Random) -> tuple[dict, dict]:
+def point(name: str, rng: random.Random, case: Case = GENERAL) -> tuple[dict, dict]:
     """A generic point of the kernel's domain, and constants."""
     c = {n: rng.uniform(0.5, 2) for n in ("alpha", "beta", "zeta", "eta", "gamma")}
     c |= {"iota": rng.uniform(-0.9, 0.9) * c["beta"] * c["eta"], "p": rng.uniform(0.4, 6)}
+    c |= {"iota": 0} if case.achiral else {}
+    c |= {"p": 2} if case.square else {}
     reach = 3 if NAIVE[name].inputs[0] == "m1" else 0.15
     values = [rng.uniform(-reach, reach) for _ in range(6)]
     values[5] += 1
     return dict(zip(NAIVE[name].inputs, values, strict=True)), c
 
 
-@pytest.mark.parametrize(("name", "k"), STEPS, ids=[f"{n}-{RULES[n][k].name}" for n, k in STEPS])
-def test_rule_is_an_identity(name: str, k: int) -> None:
+@pytest.mark.parametrize(("case", "name", "k"), STEPS)
+def test_rule_is_an_identity(case: Case, name: str, k: int) -> None:
     rng = random.Random(k)
-    before, after = before_and_after(name, k)
+    before, after = before_and_after(name, k, case)
     for _ in range(2):
-        where, constants = point(name, rng)
+        where, constants = point(name, rng, case)
         old = Evaluator(50).evaluate(before, where, constants)
         new = Evaluator(50).evaluate(after, where, constants, scale=2.0**40)
         size = max(map(abs, old.values()))
@@ -68,6 +85,32 @@ def test_rational_rules_are_exact(rule: Rule) -> None:
             difference = difference.xreplace(defined)
         difference = difference.xreplace({rules.size: rules.y})  # the gauge of scale one
         assert sp.cancel(difference) == 0
+
+
+@pytest.mark.parametrize("first", range(6))
+def test_floors_are_the_direction_of_a_load(first: int) -> None:
+    """What the floors add at rest has unit length and is the reduced form of one load."""
+    floor = {name: value / rules.tiny for name, value in rules.FLOORS[first].items()}
+    reduced = dict(zip(("a1", "a2", "a3", "b1", "b2", "b3", "c3", "c6"), range(8), strict=True))
+    names = ("mu_1", "mu_2", "mu_3", "nu_1", "nu_2", "nu_3", "twist", "dilatation")
+    got = [sp.sympify(floor.get(name, 0)) for name in reduced]
+    moduli = sp.symbols("alpha beta zeta eta", positive=True)
+    constants = {a.symbol: a.expr for a in rules.CHIRAL_CONSTANTS}
+    units = (moduli[0], moduli[0], moduli[1], moduli[2], moduli[2], moduli[3])
+    defined = {a.symbol: a.expr for a in rules.COMPLETE_DUAL_FORM.definitions}
+    loads = dict.fromkeys(rules.LOADS, sp.S.Zero) | {rules.LOADS[first]: units[first]}
+    if first == 2:  # with the n3 that leaves no dilatation
+        loads[rules.LOADS[5]] = rules.iota / moduli[1]
+    if first == 5:  # n3 alone, of unit length
+        loads[rules.LOADS[5]] = moduli[3] * rules.gap * sp.sqrt(rules.per_gap)
+    squares = sum(floor.get(name, 0) ** 2 for name in ("a1", "a2", "a3", "b1", "b2"))
+    unit = squares + rules.gap * floor.get("c6", sp.S.Zero) ** 2
+    assert sp.cancel(unit.xreplace(constants)) == 1
+    for name, value in zip(names, got, strict=True):
+        want = rules.symbol(name)
+        for _ in range(3):
+            want, value = (e.xreplace(defined).xreplace(loads) for e in (want, value))
+        assert sp.cancel((want - value).xreplace(constants)) == 0
 
 
 def test_complements_are_exact() -> None:
@@ -143,6 +186,14 @@ def in_doubles(expr: sp.Expr, values: dict[str, float]) -> float:
         return float(function(*(np.float64(values[s.name]) for s in symbols)))
 
 
+def stepwise(rule: Rule, values: dict[str, float]) -> float:
+    """The right side in doubles, definition by definition, as a module computes it."""
+    known = dict(values)
+    for a in rule.definitions:
+        known[a.name] = in_doubles(a.expr.xreplace(SMALL), known)
+    return in_doubles(rule.pairs[0][1].xreplace(SMALL), known)
+
+
 def unfolded(rule: Rule, expr: sp.Expr) -> sp.Expr:
     """The right side with the rule's definitions put in, for one evaluation in doubles."""
     for _ in range(6):
@@ -155,6 +206,9 @@ def ulps(got: float, want: mpmath.mpf) -> float:
 
 
 EDGES = [
+    (square.SCALE_RADIAL_FACTOR, {"y": 1e-170, "gamma": 2e-170, "p": 2.0}),
+    (square.SCALE_RADIAL_FACTOR, {"y": 1e170, "gamma": 2.0, "p": 2.0}),
+    (square.SPLIT_STRAIN_WEIGHT, {"y": 1e-170, "gamma": 1.1e-170, "p": 2.0}),
     (rules.SCALE_RADIAL_FACTOR, {"y": 1e10, "gamma": 1.5, "p": 40.0}),
     (rules.SCALE_RADIAL_FACTOR, {"y": 1e-50, "gamma": 2e-50, "p": 8.0}),
     (rules.SPLIT_STRAIN_WEIGHT, {"y": 1e-50, "gamma": 1.1e-50, "p": 8.0}),
@@ -166,7 +220,7 @@ EDGES = [
 @pytest.mark.parametrize(("rule", "values"), EDGES)
 def test_rule_lowers_the_error(rule: Rule, values: dict[str, float]) -> None:
     """Where ``why`` says that the left side fails it does, and the right side holds."""
-    before, after = rule.pairs[0]
+    before, _ = rule.pairs[0]
     with mpmath.workdps(60):
         exact = {name: mpmath.mpf(value) for name, value in values.items()}
         if "x" in values:  # the right side takes Q; give both the same point
@@ -175,9 +229,42 @@ def test_rule_lowers_the_error(rule: Rule, values: dict[str, float]) -> None:
         symbols = sorted(before.free_symbols, key=str)
         truth = sp.lambdify(symbols, before, "mpmath")(*(exact[s.name] for s in symbols))
         left = ulps(in_doubles(before, values), truth)
-        right = ulps(in_doubles(unfolded(rule, after), values), truth)
+        right = ulps(stepwise(rule, values), truth)
     assert right < 8
     assert left > 100 * max(right, 1)
+
+
+def test_energies_at_two_hold_where_the_textbook_cancels() -> None:
+    """x = 1e-8: 1 - (1 - x^2)^(1/2) has no digit left; likewise W* at y = 1e-8 gamma."""
+    stored, dual = theory.ELEMENTARY[sp.Integer(2)]
+    pairs = (
+        (stored, square.CLOSE_STORED_ENERGY, {"x": 1e-8, "gamma": 1.3, "p": 2.0}),
+        (dual, square.CLOSE_COMPLEMENTARY_ENERGY, {"y": 1e-8, "gamma": 1.3, "p": 2.0}),
+    )
+    for closed, rule, values in pairs:
+        values = {**values, "q": values.get("x", 0.0) ** 2}
+        with mpmath.workdps(60):
+            names = sorted(closed.free_symbols, key=str)
+            exact = (mpmath.mpf(values[s.name]) for s in names)
+            truth = sp.lambdify(names, closed, "mpmath")(*exact)
+        assert ulps(in_doubles(unfolded(rule, rule.pairs[0][1]), values), truth) < 4
+        assert ulps(in_doubles(closed, values), truth) > 1e10
+
+
+def test_energies_at_two_are_the_closed_forms_of_the_theory() -> None:
+    """Exactly: the stable forms, unfolded, less 1 - (1 - x^2)^(1/2) and its dual."""
+    x, y, g = theory.x, theory.y, sp.Symbol("gamma", positive=True)
+    stored, dual = theory.ELEMENTARY[sp.Integer(2)]
+    w = unfolded(square.CLOSE_STORED_ENERGY, square.CLOSE_STORED_ENERGY.pairs[0][1])
+    assert sp.simplify(w.subs(sp.Symbol("q", real=True), x**2) - stored) == 0
+    w_star = unfolded(
+        square.CLOSE_COMPLEMENTARY_ENERGY, square.CLOSE_COMPLEMENTARY_ENERGY.pairs[0][1]
+    )
+    for larger, smaller in ((g, y), (y, g)):
+        picked = w_star.replace(sp.Max, lambda *_, a=larger: a).replace(
+            sp.Min, lambda *_, a=smaller: a
+        )
+        assert sp.simplify(picked - dual) == 0
 
 
 @pytest.mark.parametrize("rule", [rules.COMPLETE_DUAL_FORM, rules.COMPLETE_FORM])

@@ -54,6 +54,8 @@ def test_wheel_holds_the_modules_and_nothing_else(root: Path, tmp_path: Path) ->
         "rodproof/" + str(path.relative_to(root))
         for portion in PORTIONS
         for path in (root / portion).rglob("*")
-        if path.suffix in {".py", ".toml"} or path.name == "py.typed"
+        if path.suffix in {".py", ".toml", ".json", ".html", ".css", ".js"}
+        or path.name == "py.typed"
+        or path.parent.name == "assets"
     }
     assert shipped == expected

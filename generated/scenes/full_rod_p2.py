@@ -1,0 +1,474 @@
+"""The full rod at p = 2: square roots for powers, energies in closed form.
+
+Scene full_rod_p2, made by: rodproof generate full_rod_p2
+
+Fixed: p = 2.
+
+Statements it rests on (paper label, verdict; as corrected if refuted): qstar-form Section 3.1
+refuted; const-u-mu eq:uconst proved; const-u-3 eq:u3const proved; const-v-mu eq:vconst proved;
+const-v-3 eq:v3const proved; q-form eq:quadraticform definition; strain-limit eq:strainlimiting
+proved; const-m-mu eq:mconst proved; const-m-3 eq:m3const proved; const-n-mu eq:nconst proved;
+const-n-3 eq:n3const proved; w-definition eq:stenergy proved; wstar-definition eq:compenergy
+proved; hess-m-u reading; hess-m-u3 reading; hess-m-v reading; hess-m-v3 reading; hess-m3-u3
+refuted; hess-m3-v reading; hess-m3-v3 refuted; hess-n-v reading; hess-n-v3 reading; hess-n3-v3
+reading; wstar-gradient Section 3.1 proved.
+
+Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
+
+Operations a point: arithmetic, transcendental, energy shares, temporaries
+    strains                48    0    0   17
+    loads                  39    0    0   17
+    stored_energy          30    0    0   12
+    complementary_energy   37    0    0   12
+    stiffness             107    0    0   27
+    compliance            159    0    0   39
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+Array = np.ndarray[Any, np.dtype[Any]]
+Pair = tuple[Array, Array]
+Rows = Sequence[Array]
+Inputs = dict[str, ArrayLike]
+
+BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
+TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
+HEADS = {
+    "m": (3,), "n": (3,), "u": (3,), "v": (3,), "w": (), "w_star": (), "stiff": (6, 6),
+    "soft": (6, 6),
+}
+
+
+@dataclass(frozen=True)
+class Constants:
+    """The six constants of the rod, checked on construction (ValueError).
+
+    alpha, beta and iota are lengths, gamma is a force, zeta and eta are plain numbers; all but iota
+    are positive and beta^2 eta^2 - iota^2 > 0.
+    """
+
+    alpha: float
+    beta: float
+    zeta: float
+    eta: float
+    iota: float
+    gamma: float
+    chirality: float = field(init=False, repr=False, compare=False)
+    gap: float = field(init=False, repr=False, compare=False)
+    n3_dilates: float = field(init=False, repr=False, compare=False)
+    m3_contracts: float = field(init=False, repr=False, compare=False)
+    per_alpha: float = field(init=False, repr=False, compare=False)
+    per_beta: float = field(init=False, repr=False, compare=False)
+    per_zeta: float = field(init=False, repr=False, compare=False)
+    per_eta: float = field(init=False, repr=False, compare=False)
+    per_gap: float = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        for name in ("alpha", "beta", "zeta", "eta", "iota", "gamma"):
+            value = float(getattr(self, name))
+            if not math.isfinite(value) or (value <= 0 and name != "iota"):
+                rule = "a finite number" if name == "iota" else "positive and finite"
+                raise ValueError(f"Constants: {name} must be {rule}, not {value}")
+            object.__setattr__(self, name, value)
+        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota))
+        alpha, beta, zeta, eta, iota = exact
+        if not beta**2 * eta**2 - iota**2 > 0:
+            raise ValueError(
+                "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
+                f" not beta={self.beta}, eta={self.eta}, iota={self.iota}"
+            )
+        derived = {
+            "chirality": iota / beta / eta,
+            "gap": (beta**2 * eta**2 - iota**2) / beta**2 / eta**2,
+            "n3_dilates": beta**2 * eta / (beta**2 * eta**2 - iota**2),
+            "m3_contracts": eta * iota / (beta**2 * eta**2 - iota**2),
+            "per_alpha": 1 / alpha,
+            "per_beta": 1 / beta,
+            "per_zeta": 1 / zeta,
+            "per_eta": 1 / eta,
+            "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
+        }
+        for name, ratio in derived.items():  # exact, then rounded once
+            if abs(ratio) >= 2**1023:
+                raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
+            object.__setattr__(self, name, float(ratio))
+
+
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
+    """Loads over their moduli, the linear rod's strains, and Q* in squares."""
+    m1, m2, m3, n1, n2, n3 = loads
+    mu_1 = c.per_alpha * m1
+    mu_2 = c.per_alpha * m2
+    mu_3 = c.per_beta * m3
+    nu_1 = c.per_zeta * n1
+    nu_2 = c.per_zeta * n2
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    nu_3 = c.per_eta * n3
+    q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2 + nu_1**2 + nu_2**2
+    return mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3, q_star
+
+
+def _soften(y: Array, c: Constants) -> Rows:
+    """Strain over load, (gamma^2 + y^2)^(-1/2), by the ratio of gamma and y."""
+    larger = np.maximum(y, c.gamma)
+    ratio = np.minimum(y, c.gamma) / larger
+    power = ratio**2
+    factor = 1 / larger / np.sqrt(power + 1)
+    return power, factor
+
+
+def _reduce_strains(rest: Rows, c: Constants) -> Rows:
+    """Strains times their moduli, the linear rod's loads, and Q in squares."""
+    u1, u2, u3, v1, v2, stretch = rest
+    kappa_1 = c.alpha * u1
+    kappa_2 = c.alpha * u2
+    kappa_3 = c.beta * u3
+    lam_1 = c.zeta * v1
+    lam_2 = c.zeta * v2
+    lam_3 = c.eta * stretch
+    torque = c.chirality * lam_3 + kappa_3
+    tension = c.chirality * torque + c.gap * lam_3
+    q = c.gap * lam_3**2 + kappa_1**2 + kappa_2**2 + lam_1**2 + lam_2**2 + torque**2
+    return kappa_1, kappa_2, lam_1, lam_2, torque, tension, q
+
+
+def _stiffen(q: Array, c: Constants) -> Rows:
+    """Load over strain, gamma (1 - Q)^(-1/2)."""
+    left = 1 - q
+    root = np.sqrt(left)
+    factor = c.gamma / root
+    return left, root, factor
+
+
+def _exponent(rows: Rows) -> Array:
+    """The power of two above the largest magnitude in each column."""
+    largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
+    return np.frexp(largest)[1]
+
+
+def _balanced(
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+) -> tuple[Rows, Array, Array, Array]:
+    """Values of ``form``, the root of its last one, and the radius and its square.
+
+    Where squares would overflow or underflow the inputs are taken times a power of two, a factor
+    that the values and their root share and that later cancels; the radius is free of it.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        *values, square = form(inputs, c)
+        tiny = TINY[square.dtype]
+        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
+            size = np.sqrt(square)
+            return values, size, size, square
+        power = _exponent(inputs)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        power = power + _exponent(values)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
+        size = np.sqrt(square)
+        radius = np.ldexp(size, power)
+        return values, np.maximum(size, tiny), radius, radius * radius
+
+
+class _PastLimit(Exception):
+    """Some strains have Q >= 1."""
+
+
+def _within_limit(q: Array) -> Array:
+    """Q where all of it is below the limit."""
+    if not (q < 1).all():
+        raise _PastLimit
+    return q
+
+
+def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueError:
+    """The error for strains at or past the limit: how many points, the first and its Q."""
+    rest = [*strains[:5], strains[5] - 1]
+    with np.errstate(over="ignore", invalid="ignore"):
+        *_, q = _reduce_strains(rest, c)
+    bad = np.flatnonzero(~(q < 1))
+    index = tuple(map(int, np.unravel_index(bad[0], shape)))
+    first = f"the first at index {index} with Q = {float(q[bad[0]])!r}"
+    return ValueError(f"strains must satisfy Q(u, v) < 1: {bad.size} of {q.size} do not, {first}")
+
+
+def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
+    """The inputs as float arrays of one type, components first, and the trailing shape."""
+    arrays = {name: np.asarray(value) for name, value in inputs.items()}
+    for name, array in arrays.items():
+        head = HEADS[name]
+        if array.dtype.kind not in "iuf" or array.shape[: len(head)] != head:
+            wanted = ", ".join([*map(str, head), "..."])
+            kind = f"{array.dtype} of shape {array.shape}"
+            raise ValueError(f"{name} must hold real numbers in the shape ({wanted}), not {kind}")
+    dtype = np.float32 if np.result_type(*arrays.values()) == np.float32 else np.float64
+    try:
+        shape = np.broadcast_shapes(*(a.shape[len(HEADS[name]) :] for name, a in arrays.items()))
+    except ValueError:
+        shapes = " and ".join(f"{name} {a.shape}" for name, a in arrays.items())
+        raise ValueError(f"{shapes} do not broadcast after their first axis") from None
+    ready = []
+    for name, array in arrays.items():
+        head = HEADS[name]
+        fill = (1,) * (len(head) + len(shape) - array.ndim)
+        array = array.reshape((*head, *fill, *array.shape[len(head) :]))
+        ready.append(np.broadcast_to(array, (*head, *shape)).astype(dtype, copy=False))
+    return ready, shape
+
+
+def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
+    """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
+    shapes = [(*HEADS[name], *shape) for name in names]
+    if out is None:
+        return [np.empty(wanted, dtype) for wanted in shapes]
+    given = out if isinstance(out, tuple) else (out,)
+    if len(given) != len(names):
+        raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
+    for name, array, wanted in zip(names, given, shapes, strict=True):
+        kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
+        if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
+            raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
+    return list(given)
+
+
+def _apply(
+    body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
+) -> list[Array]:
+    """Runs ``body`` over blocks of points, straight into the results where that is safe."""
+    arrays, shape = _arguments(inputs)
+    results = _results(names, shape, arrays[0].dtype, out)
+    points = math.prod(shape)
+    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    direct = all(
+        r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
+    )
+    flat = [
+        (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
+        for name, r in zip(names, results, strict=True)
+    ]
+    with np.errstate(under="ignore"):
+        for start in range(0, points, BLOCK):
+            part = slice(start, start + BLOCK)
+            try:
+                body([row[part] for row in rows], c, *(array[..., part] for array in flat))
+            except _PastLimit:
+                raise _past_limit(rows, c, shape) from None
+    if not direct:
+        for result, values in zip(results, flat, strict=True):
+            result[...] = values.reshape(result.shape)
+    return results
+
+
+def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
+    """(u, v - e3) = (gamma^2 + Q*)^(-1/2) K^-1 (m, n)."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
+    *_, factor = _soften(y, c)
+    reach = factor * y / size
+    bend = c.per_alpha * reach
+    turn = c.per_beta * reach
+    shear = c.per_zeta * reach
+    extend = c.per_eta * reach
+    np.multiply(bend, mu_1, out=u[0])
+    np.multiply(bend, mu_2, out=u[1])
+    np.multiply(turn, twist, out=u[2])
+    np.multiply(nu_1, shear, out=v[0])
+    np.multiply(nu_2, shear, out=v[1])
+    np.add(dilatation * extend, 1, out=v[2])
+
+
+def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+    """Strains u, v under the loads m, n (eq:uconst to eq:v3const).
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, v (3, ...) plain; at rest u = 0, v = (0, 0, 1).
+    """
+    u, v = _apply(_strains, {"m": m, "n": n}, constants, ("u", "v"), out)
+    return u, v
+
+
+def _loads(strains: Rows, c: Constants, m: Array, n: Array) -> None:
+    """(m, n) = gamma (1 - Q)^(-1/2) K (u, v - e3)."""
+    rest = [*strains[:5], strains[5] - 1]
+    with np.errstate(over="ignore", invalid="ignore"):
+        kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
+    q = _within_limit(q)
+    *_, factor = _stiffen(q, c)
+    bend = c.alpha * factor
+    turn = c.beta * factor
+    shear = c.zeta * factor
+    extend = c.eta * factor
+    np.multiply(bend, kappa_1, out=m[0])
+    np.multiply(bend, kappa_2, out=m[1])
+    np.multiply(torque, turn, out=m[2])
+    np.multiply(lam_1, shear, out=n[0])
+    np.multiply(lam_2, shear, out=n[1])
+    np.multiply(extend, tension, out=n[2])
+
+
+def loads(u: ArrayLike, v: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+    """Loads m, n at the strains u, v (eq:mconst to eq:n3const).
+
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
+    Answers m (3, ...) in force times length, n (3, ...) in force.
+    Near the limit the strains hardly determine the loads.
+    """
+    m, n = _apply(_loads, {"u": u, "v": v}, constants, ("m", "n"), out)
+    return m, n
+
+
+def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
+    """W = gamma (1 - (1 - Q)^(1/2)), as gamma Q/(1 + (1 - Q)^(1/2))."""
+    rest = [*strains[:5], strains[5] - 1]
+    _, _, x, q = _balanced(_reduce_strains, rest, c)
+    q = _within_limit(q)
+    _, root, _ = _stiffen(q, c)
+    linear = c.gamma * x
+    np.divide(linear * x, root + 1, out=w)
+
+
+def stored_energy(
+    u: ArrayLike, v: ArrayLike, constants: Constants, out: Array | None = None
+) -> Array:
+    """Stored energy W per length, in force (eq:stenergy), with the trailing shape.
+
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
+    """
+    (w,) = _apply(_stored_energy, {"u": u, "v": v}, constants, ("w",), out)
+    return w
+
+
+def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+    """W* = (gamma^2 + Q*)^(1/2) - gamma, as load times strain over 1 + gamma factor."""
+    _, _, y, _ = _balanced(_reduce_loads, loads, c)
+    *_, factor = _soften(y, c)
+    strain = factor * y
+    np.divide(strain * y, c.gamma * factor + 1, out=w_star)
+
+
+def complementary_energy(
+    m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None
+) -> Array:
+    """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    """
+    (w_star,) = _apply(_complementary_energy, {"m": m, "n": n}, constants, ("w_star",), out)
+    return w_star
+
+
+def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
+    """D^2 W = factor (K + growth t t^T), t = K (u, v - e3)/x."""
+    rest = [*strains[:5], strains[5] - 1]
+    with np.errstate(over="ignore", invalid="ignore"):
+        kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
+    q = _within_limit(q)
+    left, _, factor = _stiffen(q, c)
+    growth = q / left
+    steep = factor * growth
+    tiny = TINY[q.dtype]
+    x = np.sqrt(np.maximum(q, tiny))
+    per_x = 1 / x
+    bend = c.alpha * per_x
+    turn = c.beta * per_x
+    shear = c.zeta * per_x
+    extend = c.eta * per_x
+    t = np.empty((6, q.size), q.dtype)
+    np.multiply(bend, kappa_1, out=t[0])
+    np.multiply(bend, kappa_2, out=t[1])
+    np.multiply(torque, turn, out=t[2])
+    np.multiply(lam_1, shear, out=t[3])
+    np.multiply(lam_2, shear, out=t[4])
+    np.multiply(extend, tension, out=t[5])
+    for i in range(6):
+        np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.alpha**2 * factor
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 5] += c.iota * factor
+    stiff[3, 3] += c.zeta**2 * factor
+    stiff[4, 4] += c.zeta**2 * factor
+    stiff[5, 5] += c.eta**2 * factor
+    for i in range(1, 6):
+        stiff[i, :i] = stiff[:i, i]
+
+
+def stiffness(u: ArrayLike, v: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+    """Stiffness d(m, n)/d(u, v), (6, 6, ...), symmetric positive definite (Section 3.4).
+
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
+    Rows and columns are ordered (m1, m2, m3, n1, n2, n3) and (u1, u2, u3, v1, v2, v3).
+    """
+    (stiff,) = _apply(_stiffness, {"u": u, "v": v}, constants, ("stiff",), out)
+    return stiff
+
+
+def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+    """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y.
+
+    With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
+    the entries that would cancel are sums of squares.
+    """
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3 = values
+    power, factor = _soften(y, c)
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    per_size = 1 / size
+    tiny = TINY[y.dtype]
+    a1 = per_size * (mu_1 + tiny)
+    aa1 = a1**2
+    a2 = mu_2 * per_size
+    aa2 = a2**2
+    a3 = mu_3 * per_size
+    aa3 = a3**2
+    b1 = nu_1 * per_size
+    bb1 = b1**2
+    b2 = nu_2 * per_size
+    bb2 = b2**2
+    b3 = nu_3 * per_size
+    c3 = per_size * twist
+    c6 = dilatation * per_size
+    cc6 = c6**2
+    across = aa1 + aa2 + bb1 + bb2
+    coupled = aa3 + c.gap * cc6
+    share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
+    steep = -factor * share
+    d = np.empty((6, y.size), y.dtype)
+    np.multiply(c.per_alpha, a1, out=d[0])
+    np.multiply(c.per_alpha, a2, out=d[1])
+    np.multiply(c.per_beta, c3, out=d[2])
+    np.multiply(c.per_zeta, b1, out=d[3])
+    np.multiply(c.per_zeta, b2, out=d[4])
+    np.multiply(c.per_eta, c6, out=d[5])
+    for i in range(6):
+        np.multiply(steep * d[i], d[i:], out=soft[i, i:])
+    np.multiply(c.per_alpha**2 * factor, aa1 * remain + aa2 + bb1 + bb2 + coupled, out=soft[0, 0])
+    np.multiply(c.per_alpha**2 * factor, aa1 + aa2 * remain + bb1 + bb2 + coupled, out=soft[1, 1])
+    soft[2, 2] = c.per_beta**2 * factor * (c3**2 * remain + c.per_gap * (across + b3**2))
+    soft[2, 5] = c.per_beta * c.per_eta * factor * (
+        c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across)
+    )
+    np.multiply(c.per_zeta**2 * factor, aa1 + aa2 + bb1 * remain + bb2 + coupled, out=soft[3, 3])
+    np.multiply(c.per_zeta**2 * factor, aa1 + aa2 + bb1 + bb2 * remain + coupled, out=soft[4, 4])
+    np.multiply(c.per_eta**2 * factor, cc6 * remain + c.per_gap * (aa3 + across), out=soft[5, 5])
+    for i in range(1, 6):
+        soft[i, :i] = soft[:i, i]
+
+
+def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+    """Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
+    """
+    (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, ("soft",), out)
+    return soft

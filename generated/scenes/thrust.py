@@ -1,0 +1,344 @@
+"""Strains under an isolated force, without a couple.
+
+Scene thrust, made by: rodproof generate thrust
+
+Without the loads m1, m2, m3; so u1 = 0, u2 = 0; u3 follows by the coupling.
+
+Statements it rests on (paper label, verdict; as corrected if refuted): qstar-form Section 3.1
+refuted; const-u-3 eq:u3const proved; const-v-mu eq:vconst proved; const-v-3 eq:v3const proved;
+wstar-definition eq:compenergy proved; wstar-gradient Section 3.1 proved.
+
+Domain: loads with finite Q*^(1/2).
+
+Operations a point: arithmetic, transcendental, energy shares, temporaries
+    strains                34    4    0   13
+    complementary_energy   30    6    1   10
+    compliance             68    4    0   23
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+Array = np.ndarray[Any, np.dtype[Any]]
+Pair = tuple[Array, Array]
+Rows = Sequence[Array]
+Inputs = dict[str, ArrayLike]
+
+BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
+TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
+HEADS = {"n": (3,), "u3": (), "v": (3,), "w_star": (), "soft": (3, 3)}
+
+
+@dataclass(frozen=True)
+class Constants:
+    """The six constants of the rod, checked on construction (ValueError).
+
+    beta and iota are lengths, gamma is a force, zeta, eta and p are plain numbers; all but iota are
+    positive and beta^2 eta^2 - iota^2 > 0.
+    """
+
+    beta: float
+    zeta: float
+    eta: float
+    iota: float
+    gamma: float
+    p: float
+    chirality: float = field(init=False, repr=False, compare=False)
+    gap: float = field(init=False, repr=False, compare=False)
+    n3_dilates: float = field(init=False, repr=False, compare=False)
+    per_beta: float = field(init=False, repr=False, compare=False)
+    per_zeta: float = field(init=False, repr=False, compare=False)
+    per_eta: float = field(init=False, repr=False, compare=False)
+    per_gap: float = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        for name in ("beta", "zeta", "eta", "iota", "gamma", "p"):
+            value = float(getattr(self, name))
+            if not math.isfinite(value) or (value <= 0 and name != "iota"):
+                rule = "a finite number" if name == "iota" else "positive and finite"
+                raise ValueError(f"Constants: {name} must be {rule}, not {value}")
+            object.__setattr__(self, name, value)
+        beta, zeta, eta, iota = (Fraction(v) for v in (self.beta, self.zeta, self.eta, self.iota))
+        if not beta**2 * eta**2 - iota**2 > 0:
+            raise ValueError(
+                "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
+                f" not beta={self.beta}, eta={self.eta}, iota={self.iota}"
+            )
+        derived = {
+            "chirality": iota / beta / eta,
+            "gap": (beta**2 * eta**2 - iota**2) / beta**2 / eta**2,
+            "n3_dilates": beta**2 * eta / (beta**2 * eta**2 - iota**2),
+            "per_beta": 1 / beta,
+            "per_zeta": 1 / zeta,
+            "per_eta": 1 / eta,
+            "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
+        }
+        for name, ratio in derived.items():  # exact, then rounded once
+            if abs(ratio) >= 2**1023:
+                raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
+            object.__setattr__(self, name, float(ratio))
+
+    @cached_property
+    def work_share(self) -> tuple[list[float], list[float], float, float, float]:
+        """Coefficients for `_work_share`: fraction, powers, their sum, and the nearest power."""
+        a = 1 / self.p
+        fraction = [a / (1 + 2 * a)]
+        for k in range(1, 30):
+            below = (2 * a + 2 * k) * (2 * a + 2 * k - 1)
+            fraction += [k * (a + k) / below]
+            below = (2 * a + 2 * k) * (2 * a + 2 * k + 1)
+            fraction += [(a + k) * (2 * a + k) / below]
+        at_split = 1.0
+        for term in reversed(fraction):
+            at_split = 1 + term * 8 / at_split
+        nearest = min(max(round(a) - 1, 0), 23)
+        powers, term = [], a / 9
+        for k in range(24):
+            exponent = ((k + 1) * self.p - 1) / self.p  # k + 1 - 1/p, small where p = 1/(k + 1)
+            powers += [term / exponent if k != nearest else 0.0]
+            if k == nearest:
+                slope, single = exponent, term
+            term *= (k + 1 - 2 * a) / (k + 1) / 9
+        start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
+        return fraction, powers, start, slope, single
+
+
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
+    """Loads over their moduli, the linear rod's strains, and Q* in squares."""
+    n1, n2, n3 = loads
+    nu_1 = c.per_zeta * n1
+    nu_2 = c.per_zeta * n2
+    dilatation = c.n3_dilates * n3
+    twist = -c.chirality * dilatation
+    q_star = c.gap * dilatation**2 + nu_1**2 + nu_2**2
+    return nu_1, nu_2, dilatation, twist, q_star
+
+
+def _soften(y: Array, c: Constants) -> Rows:
+    """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
+    tiny = TINY[y.dtype]
+    larger = np.maximum(y, c.gamma)
+    ratio = np.maximum(tiny, np.minimum(y, c.gamma) / larger)
+    power = np.exp(c.p * np.log(ratio))
+    factor = np.exp(-np.log1p(power) / c.p) / larger
+    return ratio, power, factor
+
+
+def _exponent(rows: Rows) -> Array:
+    """The power of two above the largest magnitude in each column."""
+    largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
+    return np.frexp(largest)[1]
+
+
+def _balanced(
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+) -> tuple[Rows, Array, Array, Array]:
+    """Values of ``form``, the root of its last one, and the radius and its square.
+
+    Where squares would overflow or underflow the inputs are taken times a power of two, a factor
+    that the values and their root share and that later cancels; the radius is free of it.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        *values, square = form(inputs, c)
+        tiny = TINY[square.dtype]
+        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
+            size = np.sqrt(square)
+            return values, size, size, square
+        power = _exponent(inputs)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        power = power + _exponent(values)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
+        size = np.sqrt(square)
+        radius = np.ldexp(size, power)
+        return values, np.maximum(size, tiny), radius, radius * radius
+
+
+def _work_share(depth: Array, c: Constants) -> Array:
+    """Stored energy over work, 1/2 2F1(1, 1/p; 1 + 2/p; 1 - exp(depth)), depth = -log(1 - x^p).
+
+    Up to exp(depth) = 9 by the continued fraction of Gauss, whose terms are all positive; from
+    there by its integral over t = 1 - s^p, with (1 - t)^(2/p - 1) expanded. The power of t nearest
+    to -1 is integrated through expm1, which makes the sum smooth at p = 1, 1/2, 1/3, ...
+    """
+    fraction, powers, start, slope, single = c.work_share
+    split = math.log(9)
+    growth = np.expm1(np.minimum(depth, split))
+    value = np.ones_like(growth)
+    for term in reversed(fraction):
+        np.divide(growth, value, out=value)
+        value *= term
+        value += 1
+    share: Array = 0.5 / value
+    far = depth > split
+    if far.any():
+        beyond = depth[far] - split
+        left = np.exp(-beyond)
+        rest = np.zeros_like(left)
+        for coefficient in reversed(powers):
+            rest *= left
+            rest += coefficient
+        turns = -np.expm1(np.minimum(-slope * beyond, 80)) / slope if slope else beyond
+        inner = np.exp(-beyond / c.p) * (start + single * turns) - left * rest
+        share[far] = inner * np.exp(-2 / c.p * np.log1p(-left / 9))
+    return share
+
+
+def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
+    """The inputs as float arrays of one type, components first, and the trailing shape."""
+    arrays = {name: np.asarray(value) for name, value in inputs.items()}
+    for name, array in arrays.items():
+        head = HEADS[name]
+        if array.dtype.kind not in "iuf" or array.shape[: len(head)] != head:
+            wanted = ", ".join([*map(str, head), "..."])
+            kind = f"{array.dtype} of shape {array.shape}"
+            raise ValueError(f"{name} must hold real numbers in the shape ({wanted}), not {kind}")
+    dtype = np.float32 if np.result_type(*arrays.values()) == np.float32 else np.float64
+    try:
+        shape = np.broadcast_shapes(*(a.shape[len(HEADS[name]) :] for name, a in arrays.items()))
+    except ValueError:
+        shapes = " and ".join(f"{name} {a.shape}" for name, a in arrays.items())
+        raise ValueError(f"{shapes} do not broadcast after their first axis") from None
+    ready = []
+    for name, array in arrays.items():
+        head = HEADS[name]
+        fill = (1,) * (len(head) + len(shape) - array.ndim)
+        array = array.reshape((*head, *fill, *array.shape[len(head) :]))
+        ready.append(np.broadcast_to(array, (*head, *shape)).astype(dtype, copy=False))
+    return ready, shape
+
+
+def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
+    """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
+    shapes = [(*HEADS[name], *shape) for name in names]
+    if out is None:
+        return [np.empty(wanted, dtype) for wanted in shapes]
+    given = out if isinstance(out, tuple) else (out,)
+    if len(given) != len(names):
+        raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
+    for name, array, wanted in zip(names, given, shapes, strict=True):
+        kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
+        if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
+            raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
+    return list(given)
+
+
+def _apply(
+    body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
+) -> list[Array]:
+    """Runs ``body`` over blocks of points, straight into the results where that is safe."""
+    arrays, shape = _arguments(inputs)
+    results = _results(names, shape, arrays[0].dtype, out)
+    points = math.prod(shape)
+    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    direct = all(
+        r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
+    )
+    flat = [
+        (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
+        for name, r in zip(names, results, strict=True)
+    ]
+    with np.errstate(under="ignore"):
+        for start in range(0, points, BLOCK):
+            part = slice(start, start + BLOCK)
+            body([row[part] for row in rows], c, *(array[..., part] for array in flat))
+    if not direct:
+        for result, values in zip(results, flat, strict=True):
+            result[...] = values.reshape(result.shape)
+    return results
+
+
+def _strains(loads: Rows, c: Constants, u3: Array, v: Array) -> None:
+    """(u3, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 n."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    nu_1, nu_2, dilatation, twist = values
+    *_, factor = _soften(y, c)
+    reach = factor * y / size
+    turn = c.per_beta * reach
+    shear = c.per_zeta * reach
+    extend = c.per_eta * reach
+    np.multiply(turn, twist, out=u3)
+    np.multiply(nu_1, shear, out=v[0])
+    np.multiply(nu_2, shear, out=v[1])
+    np.add(dilatation * extend, 1, out=v[2])
+
+
+def strains(n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+    """Strains u3, v under the loads n (eq:u3const to eq:v3const).
+
+    n (3, ...) in force, with Q*^(1/2) finite.
+    Answers u3 (...) in 1/length, v (3, ...) plain; at rest u3 = 0, v = (0, 0, 1).
+    """
+    u3, v = _apply(_strains, {"n": n}, constants, ("u3", "v"), out)
+    return u3, v
+
+
+def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+    """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
+    _, _, y, _ = _balanced(_reduce_loads, loads, c)
+    ratio, power, factor = _soften(y, c)
+    strain = factor * y
+    depth = np.log1p(power) - c.p * np.where(y <= c.gamma, 0.0, np.log(ratio))
+    np.multiply(strain * y, 1 - _work_share(depth, c), out=w_star)
+
+
+def complementary_energy(n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+    """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
+
+    n (3, ...) in force, with Q*^(1/2) finite.
+    """
+    (w_star,) = _apply(_complementary_energy, {"n": n}, constants, ("w_star",), out)
+    return w_star
+
+
+def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+    """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 n/y.
+
+    With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
+    the entries that would cancel are sums of squares.
+    """
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    nu_1, nu_2, dilatation, _ = values
+    _, power, factor = _soften(y, c)
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    per_size = 1 / size
+    tiny = TINY[y.dtype]
+    b1 = per_size * (nu_1 + tiny)
+    bb1 = b1**2
+    b2 = nu_2 * per_size
+    bb2 = b2**2
+    c6 = dilatation * per_size
+    cc6 = c6**2
+    across = bb1 + bb2
+    coupled = c.gap * cc6
+    share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
+    steep = -factor * share
+    d = np.empty((3, y.size), y.dtype)
+    np.multiply(c.per_zeta, b1, out=d[0])
+    np.multiply(c.per_zeta, b2, out=d[1])
+    np.multiply(c.per_eta, c6, out=d[2])
+    for i in range(3):
+        np.multiply(steep * d[i], d[i:], out=soft[i, i:])
+    np.multiply(c.per_zeta**2 * factor, bb1 * remain + bb2 + coupled, out=soft[0, 0])
+    np.multiply(c.per_zeta**2 * factor, bb1 + bb2 * remain + coupled, out=soft[1, 1])
+    np.multiply(c.per_eta**2 * factor, c.per_gap * across + cc6 * remain, out=soft[2, 2])
+    for i in range(1, 3):
+        soft[i, :i] = soft[:i, i]
+
+
+def compliance(n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+    """Compliance d v/d n, (3, 3, ...), symmetric positive definite (Section 3.4).
+
+    n (3, ...) in force, with Q*^(1/2) finite.
+    Rows and columns are ordered (v1, v2, v3) and (n1, n2, n3).
+    """
+    (soft,) = _apply(_compliance, {"n": n}, constants, ("soft",), out)
+    return soft

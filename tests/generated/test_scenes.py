@@ -1,0 +1,235 @@
+"""Scenes as their users meet them: arrays by scene, layouts, types, defaults, examples."""
+
+from __future__ import annotations
+
+import importlib
+import runpy
+import sys
+import types
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rodproof.codegen import generate, scene
+from rodproof.codegen.live import groups, live
+from rodproof.codegen.scene import Scene
+from rodproof.derivations.theory import constrained
+from rodproof.generated.scenes import dsdna, full_rod, kirchhoff
+
+SCENES = {name: scene.committed(name) for name in scene.committed_names()}
+CALLS = [(name, f) for name, s in SCENES.items() for f in s.functions]
+GOOD = {"alpha": 0.7, "beta": 1.1, "zeta": 0.9, "eta": 1.6, "iota": -0.4, "gamma": 2.3, "p": 3.3}
+OF_LOADS = ("strains", "complementary_energy", "compliance")
+
+
+def module_of(own: Scene) -> types.ModuleType:
+    """The scene's module; dataclass wants it among the modules while it loads."""
+    module = types.ModuleType(own.name)
+    sys.modules[own.name] = module
+    try:
+        exec(generate.render(own), module.__dict__)
+    finally:
+        del sys.modules[own.name]
+    return module
+
+
+def constants(own: Scene, module: types.ModuleType) -> tuple[object, full_rod.Constants]:
+    """Constants of the scene and of the full rod that it restricts."""
+    names = set(module.Constants.__dataclass_fields__) & set(GOOD)
+    whole = {**GOOD, **own.fixed} | ({"iota": 0} if constrained.achiral(own.constraints) else {})
+    given = {name: whole[name] for name in names - set(own.fixed)}
+    return module.Constants(**given), full_rod.Constants(**whole)
+
+
+def inputs(own: Scene, function: str, shape: tuple, dtype: type = np.float64) -> tuple:
+    """What the scene's function takes, and what the full rod's does."""
+    rng, at = np.random.default_rng(3), live(own).loads
+    whole = np.zeros((6, *shape))
+    whole[list(at)] = rng.uniform(-0.2, 0.2, (len(at), *shape))
+    whole[5] += function not in OF_LOADS
+    whole = whole.astype(dtype)
+    parts = groups("mn" if function in OF_LOADS else "uv", at)
+    given = [whole[list(g.components)] if g.head else whole[g.components[0]] for g in parts]
+    return given, (whole[:3], whole[3:])
+
+
+def by_component(own: Scene, function: str, got: object) -> np.ndarray:
+    """What the scene returned, in the rows of the full rod's answer that the scene keeps."""
+    parts = got if isinstance(got, tuple) else (got,)
+    if function in ("strains", "loads"):
+        kept = live(own).strains if function == "strains" else live(own).loads
+        heads = [g.head for g in groups("uv" if function == "strains" else "mn", kept)]
+        rows = [p if h else p[None] for p, h in zip(parts, heads, strict=True)]
+        return np.concatenate(rows)
+    return parts[0]
+
+
+def restricted(own: Scene, function: str, got: object) -> np.ndarray:
+    """The full rod's answer, at the components that the scene keeps."""
+    at = list(live(own).loads)
+    if function in ("strains", "loads"):
+        kept = live(own).strains if function == "strains" else at
+        return np.concatenate(got)[list(kept)]
+    if function in ("stiffness", "compliance"):
+        return got[np.ix_(at, at)] if len(at) > 1 else got[at[0], at[0]]
+    return got
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize(("name", "function"), CALLS)
+def test_scene_has_the_numbers_of_the_full_rod(name: str, function: str, dtype: type) -> None:
+    own, module = SCENES[name], importlib.import_module(f"rodproof.generated.scenes.{name}")
+    mine, whole = constants(own, module)
+    given, all_of_it = inputs(own, function, (4, 5), dtype)
+    with np.errstate(all="raise", under="ignore"):
+        got = by_component(own, function, getattr(module, function)(*given, mine))
+    want = restricted(own, function, getattr(full_rod, function)(*all_of_it, whole))
+    assert got.dtype == dtype
+    assert got.shape == want.shape
+    np.testing.assert_allclose(got, want, atol=float(np.abs(want).max()) * 8 * np.finfo(dtype).eps)
+
+
+@pytest.mark.parametrize("shape", [(), (7,), (2, 0), (3, 4)])
+@pytest.mark.parametrize("name", ["full_rod", "planar", "dsdna"])
+def test_components_last(name: str, shape: tuple) -> None:
+    """The same numbers to the bit, with the axes of the components behind the points."""
+    first = SCENES[name]
+    last = Scene("last", constraints=first.constraints, layout="last")
+    module = module_of(last)
+    mine, _ = constants(last, module)
+    usual = importlib.import_module(f"rodproof.generated.scenes.{name}")
+    c, _ = constants(first, usual)
+    for function in last.functions:
+        given, _ = inputs(last, function, shape)
+        turned = [np.moveaxis(a, 0, -1) if a.ndim > len(shape) else a for a in given]
+        got = getattr(module, function)(*turned, mine)
+        want = getattr(usual, function)(*given, c)
+        pairs = zip(got, want, strict=True) if isinstance(got, tuple) else [(got, want)]
+        for mine_, usual_ in pairs:
+            extra = usual_.ndim - len(shape)
+            moved = np.moveaxis(usual_, range(extra), range(-extra, 0))
+            assert mine_.shape == moved.shape
+            assert np.array_equal(mine_, moved)
+        out = got if isinstance(got, tuple) else (got,)
+        again = tuple(np.empty_like(g) for g in out)
+        getattr(module, function)(*turned, mine, out=again if len(again) > 1 else again[0])
+        assert all(np.array_equal(a, b) for a, b in zip(again, out, strict=True))
+
+
+def test_components_last_says_what_it_wants() -> None:
+    module = module_of(Scene("last", functions=("strains", "loads"), layout="last"))
+    c = module.Constants(**GOOD)
+    with pytest.raises(ValueError, match=r"m must hold real numbers in the shape \(\.\.\., 3\)"):
+        module.strains(np.zeros((3, 4)), np.zeros(3), c)
+    with pytest.raises(ValueError, match=r"m \(2, 3\) and n \(4, 3\) do not broadcast before"):
+        module.strains(np.zeros((2, 3)), np.zeros((4, 3)), c)
+    u = np.zeros((4, 5, 3))
+    u[2, 3, 0] = 9
+    with pytest.raises(ValueError, match=r"1 of 20 do not, the first at index \(2, 3\)"):
+        module.loads(u, [0, 0, 1.0], c)
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_declared_precision(precision: str) -> None:
+    module = module_of(Scene("own", functions=("strains",), precision=precision))
+    for dtype in (np.float32, np.float64, np.int64):
+        u, _ = module.strains(np.ones((3, 2), dtype), np.ones(3, dtype), module.Constants(**GOOD))
+        assert u.dtype == precision
+    want, _ = full_rod.strains([1, 1, 1], [1, 1, 1], full_rod.Constants(**GOOD))
+    np.testing.assert_allclose(u[:, 0], want, rtol=4 * np.finfo(precision).eps)
+
+
+def test_constants_fixed_and_with_defaults() -> None:
+    """Fixed numbers are not asked for; with a number for each the functions need no constants."""
+    fixed = {"alpha": 0.7, "gamma": 1.0, "p": 3.3}
+    defaults = {"beta": 1.1, "zeta": 0.9, "eta": 1.6, "iota": -0.4}
+    module = module_of(Scene("own", functions=("strains",), fixed=fixed, defaults=defaults))
+    want = full_rod.strains([0.1, 0.2, 0.3], [1, 2, 3], full_rod.Constants(**fixed, **defaults))
+    got = module.strains([0.1, 0.2, 0.3], [1, 2, 3])
+    np.testing.assert_allclose(got, want, rtol=1e-15)
+    again = module.strains([0.1, 0.2, 0.3], [1, 2, 3], module.Constants(beta=1.1))
+    assert np.array_equal(got, again)
+    with pytest.raises(TypeError, match="alpha"):
+        module.Constants(alpha=0.7)
+    assert "gamma" not in module.Constants.__dataclass_fields__  # a factor of one is none
+    some = module_of(Scene("own", functions=("strains",), defaults={"p": 2.5}))
+    rest = {name: value for name, value in GOOD.items() if name != "p"}
+    assert some.Constants(**rest).p == 2.5
+    with pytest.raises(TypeError, match="constants"):
+        some.strains([0, 0, 0], [0, 0, 0])
+
+
+@pytest.mark.parametrize("component", range(6))
+def test_a_single_load(component: int) -> None:
+    """One live load: arrays without leading axes, at rest too, with and without coupling."""
+    load = scene.LOAD_NAMES[component]
+    functions = ("strains", "complementary_energy", "compliance")
+    for constraints in ((), ("achiral",)):
+        own = Scene("one", functions=functions, loads=(load,), constraints=constraints)
+        module = module_of(own)
+        mine, whole = constants(own, module)
+        for size in (0.0, 1e-200, 0.7, -3e7):
+            full = np.zeros(6)
+            full[component] = size
+            with np.errstate(all="raise", under="ignore"):
+                soft = module.compliance(size, mine)
+            want = full_rod.compliance(full[:3], full[3:], whole)[component, component]
+            assert soft.shape == ()
+            np.testing.assert_allclose(soft, want, rtol=2e-14)
+            got = by_component(own, "strains", module.strains(size, mine))
+            strains = full_rod.strains(full[:3], full[3:], whole)
+            np.testing.assert_allclose(got, restricted(own, "strains", strains), rtol=2e-14)
+
+
+@pytest.mark.parametrize("constraint", ["untwisted", "inextensible", "unshearable"])
+def test_a_constrained_rod_is_the_limit_of_stiff_ones(constraint: str) -> None:
+    """Numerically, with reactions that are not zero: a modulus of 1e9 is infinity to 1e-8."""
+    own = Scene("held", constraints=(constraint,))
+    module = module_of(own)
+    rigid = constrained.CONSTRAINTS[constraint].rigid.name
+    names = set(module.Constants.__dataclass_fields__) & set(GOOD)
+    mine = module.Constants(**{name: GOOD[name] for name in names})
+    stiff = full_rod.Constants(**{**GOOD, rigid: 1e9})
+    m, n = np.array([0.3, -0.2, 0.5]), np.array([0.4, 0.1, -0.6])
+    whole = np.concatenate([m, n])
+    at = live(own).loads
+    parts = groups("mn", at)
+    given = [whole[list(g.components)] if g.head else whole[g.components[0]] for g in parts]
+    got = by_component(own, "strains", module.strains(*given, mine))
+    want = np.concatenate(full_rod.strains(m, n, stiff))
+    np.testing.assert_allclose(got, want[list(at)], rtol=1e-8)
+    lost = [i for i in range(6) if i not in at]
+    np.testing.assert_allclose(want[lost], [float(i == 5) for i in lost], atol=1e-8)
+
+
+def test_moduli_of_dna() -> None:
+    """The moduli at rest come back as the stiffness at rest, whatever gamma."""
+    for gamma in (50.0, 65.0):
+        c = dsdna.Constants.of_moduli(gamma=gamma, p=2.4)
+        K = dsdna.stiffness([0, 0, 0], 1.0, c)
+        wanted = np.diag([185.0, 185.0, 447.0, 1000.0])
+        wanted[2, 3] = wanted[3, 2] = -70
+        np.testing.assert_allclose(K, wanted, rtol=1e-14, atol=1e-12)
+    own = dsdna.Constants.of_moduli(gamma=50.0, p=2.0, bending=200.0)
+    assert own.alpha == 2.0
+
+
+def test_kirchhoff_takes_and_gives_single_arrays() -> None:
+    c = kirchhoff.Constants(alpha=0.7, beta=1.1, gamma=2.3, p=3.3)
+    m = np.array([[0.1, 1], [0.2, 2], [0.3, 3]])
+    u = kirchhoff.strains(m, c)
+    assert isinstance(u, np.ndarray)
+    np.testing.assert_allclose(kirchhoff.loads(u, c), m, rtol=1e-13)
+    assert kirchhoff.stiffness(u, c).shape == (3, 3, 2)
+    out = np.empty_like(u)
+    assert kirchhoff.strains(m, c, out=out) is out
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_example_runs(name: str, root: Path, capsys: pytest.CaptureFixture) -> None:
+    """Each scene has a short example; what it prints is no test, what it asserts is."""
+    path = root / "docs" / "examples" / f"{name}.py"
+    assert len(path.read_text("utf-8").splitlines()) < 40
+    runpy.run_path(str(path), run_name="__main__")
+    assert capsys.readouterr().out
