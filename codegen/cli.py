@@ -172,15 +172,24 @@ def errata(
 
 
 @app.command()
-def scenes(as_json: Json = False) -> None:
-    """List the scenes: what each holds and what it does at the strain limit."""
+def scenes(
+    names: Annotated[list[str] | None, typer.Argument(help="A list if none is named.")] = None,
+    as_json: Json = False,
+) -> None:
+    """List the scenes, or say what one needs, what it leaves out and what that saves."""
     from dataclasses import asdict
 
-    from rodproof.codegen import scene
+    from rodproof.codegen import account, scene
 
     with one_sentence():
-        found = [scene.committed(name) for name in scene.committed_names()]
-    if as_json:
+        found = [scene.committed(name) for name in names or scene.committed_names()]
+    if names:
+        accounts = [account.account(entry) for entry in found]
+        if as_json:
+            show.as_json([asdict(entry) for entry in accounts])
+        for entry in () if as_json else accounts:
+            show.table(account.COLUMNS, account.table(entry), "\n".join(account.sentences(entry)))
+    elif as_json:
         show.as_json([asdict(entry) for entry in found])
     else:
         show.table(

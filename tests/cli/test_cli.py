@@ -118,6 +118,15 @@ def test_scenes_lists_full_rod() -> None:
     assert "compliance" in scene["functions"]
 
 
+def test_scenes_gives_the_account_of_one() -> None:
+    said = rodproof("scenes", "dsdna").stdout
+    assert "Constants left out: zeta." in said
+    assert "71 of 108" in said
+    (found,) = json.loads(rodproof("scenes", "dsdna", "--json").stdout)
+    assert found["constants_left_out"] == ["zeta"]
+    assert "did you mean 'dsdna'" in one_sentence(rodproof("scenes", "dnsa"))
+
+
 def test_generate_own_scene(tmp_path: Path) -> None:
     own, out = tmp_path / "my.toml", tmp_path / "deep" / "my_law.py"
     own.write_text('name = "my_law"\nfunctions = ["strains"]\n')
