@@ -240,9 +240,9 @@ def document(
     as_json: Json = False,
     jobs: Jobs = CORES,
 ) -> None:
-    """Write the derivations with their verdicts as LaTeX."""
+    """Write the derivations with their verdicts as LaTeX, and the site."""
     from rodproof.codegen import document as documents
-    from rodproof.codegen import places
+    from rodproof.codegen import places, site
     from rodproof.derivations import ledger
 
     with one_sentence():
@@ -250,7 +250,25 @@ def document(
     with show.progress("check") as tell:
         evidence = ledger.check(ledger.statements(), mutants=False, jobs=jobs, progress=tell)
     with one_sentence():
-        _written(documents.write(folder, evidence), as_json)
+        written = documents.write(folder, evidence)
+        _written([*written, site.write(folder / "site", evidence)], as_json)
+
+
+@app.command("open")
+def open_site(as_json: Json = False) -> None:
+    """Show the site that `rodproof document` wrote in the browser, or say where it lies."""
+    import webbrowser
+
+    from rodproof.codegen import places
+
+    with one_sentence():
+        page = places.checkout().site / "index.html"
+        if not page.is_file():
+            raise ValueError(f"{page} is not there yet: rodproof document")
+    if as_json:
+        show.as_json([str(page)])
+    elif not webbrowser.open(page.as_uri()):
+        typer.echo(page)
 
 
 @app.command()

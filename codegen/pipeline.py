@@ -3,7 +3,7 @@
 derive    ()                 -> Derivation ...   what is true, step by step
 check     (statements)       -> Evidence ...     the verdict on each printed statement
 generate  (scenes)           -> files            generated/, from the derivation
-document  (evidence)         -> files            the derivation with its verdicts, as LaTeX
+document  (evidence)         -> files            the derivation with its verdicts: LaTeX, site
 measure   (generated module) -> files            error against run time, JSON first, then pages
 """
 
@@ -14,7 +14,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 
-from rodproof.codegen import document, generate
+from rodproof.codegen import document, generate, site
 from rodproof.codegen.places import Places
 from rodproof.codegen.show import Tell
 from rodproof.derivations import chapters, ledger
@@ -77,12 +77,14 @@ def write_modules(places: Places, stage: Stage) -> tuple[Path, ...]:
 def write_documents(
     places: Places, evidence: tuple[Evidence, ...], stage: Stage
 ) -> tuple[Path, ...]:
-    """The derivation with its verdicts."""
+    """The derivation with its verdicts, and the first page of the site."""
     with stage("document") as tell:
-        tell("derivation", 0, 1)
-        written = tuple(document.write(places.documents, evidence))
-        tell("", 1, 1)
-    return written
+        tell("derivation", 0, 2)
+        written = document.write(places.documents, evidence)
+        tell("site", 1, 2)
+        written.append(site.write(places.site, evidence))
+        tell("", 2, 2)
+    return tuple(written)
 
 
 def measure(places: Places, stage: Stage) -> tuple[Path, ...]:

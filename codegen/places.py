@@ -20,6 +20,10 @@ class Places:
     def documents(self) -> Path:
         return self.root / "docs"
 
+    @property
+    def site(self) -> Path:
+        return self.documents / "site"
+
     def report(self, *, quick: bool) -> Path:
         """The full report is kept with the project; a quick one is of the day and machine."""
         return self.root / "docs" / "report" / ("quick" if quick else "")

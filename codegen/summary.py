@@ -34,9 +34,14 @@ def rows(outcome: Outcome, places: Places) -> list[Row]:
         Row("checked", show.totals(outcome.evidence), "rodproof check"),
         *(Row("refuted", row.claim, f"rodproof check {row.id}") for row in wrong),
         *(Row("generated", path.stem, places.shown(path)) for path in modules),
-        *(Row("documented", path.stem, places.shown(path)) for path in outcome.documents),
+        *(Row("documented", _document(path), places.shown(path)) for path in outcome.documents),
         *_measured(places, outcome.reports),
     ]
+
+
+def _document(path: Path) -> str:
+    """A document's name; that of a site is its folder's."""
+    return path.parent.name if path.stem == "index" else path.stem
 
 
 def _measured(places: Places, reports: tuple[Path, ...]) -> list[Row]:

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from rodproof.derivations.records import Evidence
 
-
 _PREFACE = (
     "Written by `rodproof errata --out`; every entry is decided by the derivation, and each "
     "corrected statement is itself proved."
@@ -20,8 +19,10 @@ def render(evidence: Sequence[Evidence]) -> str:
     parts = [
         "# Errata",
         _PREFACE,
-        f"{len(refuted)} statements are false as printed, "
-        + f"{len(readings)} are true under a reading.",
+        (
+            f"{len(refuted)} statements are false as printed, "
+            f"{len(readings)} are true under a reading."
+        ),
         "## False as printed",
         *(_refuted(e) for e in refuted),
         "## True under a reading",

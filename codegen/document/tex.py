@@ -47,12 +47,19 @@ _MATH_WORD = re.compile(
     r"|^-?(?:sin|cos|tan|cot|" + "|".join(_GREEK) + r")(?:'+|'*\([^)]*)$"
 )
 _NUMBER = re.compile(r"-?\d+([./]\d+)?[.,;:)]*$")
+_ESCAPED = re.compile("|".join(re.escape(tex) for tex in sorted(_SPECIAL.values(), key=len)[::-1]))
 _OPERATORS = frozenset(("=", "<", ">", ">=", "<=", "->", "+", "-", ".", "x"))
 
 
 def escape(text: str) -> str:
     """Plain text with LaTeX's special characters made harmless."""
     return "".join(_SPECIAL.get(c, c) for c in text)
+
+
+def unescape(text: str) -> str:
+    """The plain text that `escape` was given."""
+    plain = {tex: c for c, tex in _SPECIAL.items()}
+    return _ESCAPED.sub(lambda found: plain[found[0]], text)
 
 
 def prose(text: str) -> str:
@@ -145,6 +152,7 @@ def mathematics(text: str) -> str:
     text = text.replace("\\eps ", "\\varepsilon ")
     for plain, tex in _SIGNS:
         text = re.sub(plain, tex.replace("\\", r"\\"), text)
+    text = re.sub(r"(?<![A-Za-z\\])([a-z]{3,})(?=\^)", r"\\mathrm{\1}", text)
     return re.sub(r"(?<![A-Za-z\\])([unvmabgMN])([123])(?![0-9])", r"\1_\2", text)
 
 
