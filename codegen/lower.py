@@ -8,6 +8,7 @@ accurate: those are the business of `rodproof.codegen.passes.stabilise`.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import sympy as sp
 
@@ -153,6 +154,14 @@ def lower_stiffness() -> Kernel:
     return Kernel("stiffness", STRAIN_NAMES, body, outputs, None, LIMIT)
 
 
+def lower_loads_and_stiffness() -> Kernel:
+    """The loads and their derivative by the strains, from the same form and factor."""
+    loads, stiffness = lower_loads(), lower_stiffness()
+    return replace(
+        stiffness, name="loads_and_stiffness", outputs=(*loads.outputs, *stiffness.outputs)
+    )
+
+
 def _named(letter: str, rows: tuple[sp.Expr, ...]) -> tuple[Assignment, ...]:
     return tuple(Assignment(f"{letter}{i}", row) for i, row in enumerate(rows, start=1))
 
@@ -201,5 +210,6 @@ LOWER: dict[str, Callable[[], Kernel]] = {
     "stored_energy": lower_stored_energy,
     "complementary_energy": lower_complementary_energy,
     "stiffness": lower_stiffness,
+    "loads_and_stiffness": lower_loads_and_stiffness,
     "compliance": lower_compliance,
 }

@@ -27,6 +27,7 @@ FUNCTIONS = (
     "stored_energy",
     "complementary_energy",
     "stiffness",
+    "loads_and_stiffness",
     "compliance",
 )
 CONSTANT_NAMES = ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p")
@@ -110,6 +111,15 @@ class Scene:
             "Moduli of the linear rod, gamma alpha^2, gamma beta^2, gamma zeta^2, gamma eta^2 and "
             "gamma iota, as defaults from which the constants follow once gamma is known.",
             MODULI,
+        ),
+    )
+    matrix: str = field(
+        default="full",
+        metadata=_key(
+            "choice",
+            "Stiffness and compliance whole, or packed: the entries on and above the diagonal, "
+            "row by row.",
+            ("full", "packed"),
         ),
     )
     layout: str = field(

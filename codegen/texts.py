@@ -101,7 +101,9 @@ class _Words:
         """The words for one function."""
         of_loads = kernel.inputs[0] in LOAD_NAMES
         size = len(self.at.loads)
-        matrix = (size, size) if size > 1 else ()
+        matrix: tuple[int, ...] = (size, size) if size > 1 else ()
+        if size > 1 and self.scene.matrix == "packed":
+            matrix = (size * (size + 1) // 2,)
         inputs = self.load_groups if of_loads else self.own_strains
         outputs: dict[str, dict[str, tuple[int, ...]]] = {
             "strains": {g.array: g.head for g in self.strain_groups},
@@ -109,6 +111,7 @@ class _Words:
             "stored_energy": {"w": ()},
             "complementary_energy": {"w_star": ()},
             "stiffness": {"stiff": matrix},
+            "loads_and_stiffness": {g.array: g.head for g in self.load_groups} | {"stiff": matrix},
             "compliance": {"soft": matrix},
         }
         about, more = self._about(kernel, matrix)
@@ -149,6 +152,12 @@ class _Words:
         order = f"Rows and columns are ordered ({rows}) and ({columns})."
         if len(self.at.loads) == 1:
             order = f"That is d {rows}/d {columns}."
+        if len(self.at.loads) > 1 and self.scene.matrix == "packed":
+            order += "\n    Packed: the entries on and above the diagonal, row by row."
+        if kernel.name == "loads_and_stiffness":
+            made = self._listed(self.load_groups)
+            first = f"Loads {loads} and stiffness {_per(loads, strains)} at the strains {strains}."
+            return first, [f"Answers {made},", f"and the stiffness {shape}.", order]
         if kernel.name == "stiffness":
             kind = "symmetric positive definite (Section 3.4)"
             return f"Stiffness {_per(loads, strains)}, {shape}, {kind}.", [order]
@@ -176,6 +185,8 @@ class _Words:
             return "W* = (gamma^2 + Q*)^(1/2) - gamma, as load times strain over 1 + gamma factor."
         if name == "complementary_energy":
             return "W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."
+        if name == "loads_and_stiffness":
+            return f"{loads} = factor K {own} and D^2 W = factor (K + growth t t^T), as apart."
         if name == "stiffness":
             return f"D^2 W = factor (K + growth t t^T), t = K {own}/x."
         linear = ""

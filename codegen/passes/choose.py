@@ -93,11 +93,17 @@ def _stiffness(case: Case) -> tuple[Rule, ...]:
     )
 
 
+def _loads_and_stiffness(case: Case) -> tuple[Rule, ...]:
+    complete, *rest = _stiffness(case)
+    return (complete, general.REDUCE_LOADS, *rest)
+
+
 CHAINS: dict[str, Callable[[Case], tuple[Rule, ...]]] = {
     "strains": _strains,
     "loads": _loads,
     "stored_energy": _stored_energy,
     "complementary_energy": _complementary_energy,
     "stiffness": _stiffness,
+    "loads_and_stiffness": _loads_and_stiffness,
     "compliance": _compliance,
 }

@@ -8,12 +8,11 @@ from dataclasses import replace
 import sympy as sp
 
 from rodproof.codegen.kernel import Assignment, Gauge, Kernel, Output
-from rodproof.codegen.live import Group, groups, live, substitution
+from rodproof.codegen.live import Group, Live, groups, live, substitution
 from rodproof.codegen.scene import LOAD_NAMES, Scene
 from rodproof.derivations.symbols import STRAINS
 
 STRAIN_NAMES = tuple(s.name for s in STRAINS)
-LETTERS = {"strains": "uv", "loads": "mn"}  # what a function returns by components
 
 
 def specialise(kernel: Kernel, scene: Scene) -> Kernel:
@@ -60,26 +59,26 @@ def _gauge(gauge: Gauge | None, components: tuple[int, ...]) -> Gauge | None:
 
 def _outputs(kernel: Kernel, scene: Scene) -> Kernel:
     """Outputs of live components, at their places in the scene's arrays."""
-    if kernel.name in LETTERS:
-        at = live(scene).strains if kernel.name == "strains" else live(scene).loads
-        parts = groups(LETTERS[kernel.name], at)
-        placed = ((o, 3 * (o.array in "vn") + o.index[0]) for o in kernel.outputs)
-        kept = tuple(_placed(o, i, parts) for o, i in placed if i in at)
-        return replace(kernel, outputs=kept)
-    if not kernel.outputs[0].index:
-        return kernel
-    at = live(scene).loads
-    entries = tuple(
-        replace(o, index=(at.index(o.index[0]), at.index(o.index[1])))
-        for o in kernel.outputs
-        if set(o.index) <= set(at)
-    )
-    if len(at) == 1:
-        return replace(kernel, outputs=(replace(entries[0], index=()),), dyad=None)
+    at = live(scene)
+    outputs = tuple(new for o in kernel.outputs for new in _kept(o, at))
     dyad = kernel.dyad
     if dyad is not None:
-        dyad = replace(dyad, vector=tuple(dyad.vector[i] for i in at))
-    return replace(kernel, outputs=entries, dyad=dyad)
+        dyad = replace(dyad, vector=tuple(dyad.vector[i] for i in at.loads))
+    return replace(kernel, outputs=outputs, dyad=dyad if len(at.loads) > 1 else None)
+
+
+def _kept(o: Output, at: Live) -> list[Output]:
+    """The output at its new place, or nothing."""
+    if len(o.index) == 2:
+        if not set(o.index) <= set(at.loads):
+            return []
+        places = tuple(at.loads.index(i) for i in o.index)
+        return [replace(o, index=places if len(at.loads) > 1 else ())]
+    if not o.index:
+        return [o]
+    letters, kept = ("uv", at.strains) if o.array in "uv" else ("mn", at.loads)
+    component = 3 * letters.index(o.array) + o.index[0]
+    return [_placed(o, component, groups(letters, kept))] if component in kept else []
 
 
 def _placed(o: Output, component: int, parts: tuple[Group, ...]) -> Output:

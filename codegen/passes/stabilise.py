@@ -365,7 +365,7 @@ DIRECT_COMPLIANCE = Rule(
 DIRECT_STIFFNESS = Rule(
     "load direction from the reduced strains",
     tuple(
-        (row / x, answer * reduced)
+        (row / x, symbol(f"{answer}_per_x") * reduced)
         for row, answer, reduced in zip(
             s, answers, (kappa_1, kappa_2, torque, lam_1, lam_2, tension), strict=True
         )
@@ -374,7 +374,7 @@ DIRECT_STIFFNESS = Rule(
         TENSION,
         Assignment("per_x", 1 / x),
         *(
-            Assignment(answer.name, modulus * symbol("per_x"))
+            Assignment(f"{answer}_per_x", modulus * symbol("per_x"))
             for answer, modulus in dict(zip(answers, moduli, strict=True)).items()
         ),
     ),

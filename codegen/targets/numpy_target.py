@@ -87,13 +87,14 @@ def _imports(scene: Scene, kernels: tuple[Kernel, ...], words: Mapping[str, Func
     guards = [template.LOG_MAX] if "log_max" in used else []
     if guards or "tiny" in used or any(kernel.gauge for kernel in kernels):
         guards = [template.TINY, *guards]
-    pair = any(len(text.outputs) == 2 for text in words.values())
+    several = sorted({len(text.outputs) for text in words.values()} - {1})
+    kinds = {2: "Pair = tuple[Array, Array]", 3: "Triple = tuple[Array, Array, Array]"}
     text = template.IMPORTS.substitute(
         field_import=", field"
         if derived or set(scene.fixed) & set(used_constants(kernels))
         else "",
         standard_imports="\n".join(standard) or "$",
-        pair="Pair = tuple[Array, Array]" if pair else "$",
+        tuples="\n".join(kinds[n] for n in several) or "$",
         limits="\n".join(guards) or "$",
         heads=_table("HEADS", {f'"{name}"': str(head) for name, head in heads.items()}),
     )
@@ -246,7 +247,8 @@ def _body(kernel: Kernel, steps: dict[str, Step], printer: Printer, text: Functi
             lines += _store(spelled[a.name], a.expr, printer)
         elif not a.step:
             lines += _assign(a, printer)
-    return "\n".join([*lines, *_outputs(kernel, printer)])
+    packed = len(vector) if vector and len(text.outputs[kernel.outputs[-1].array]) == 1 else 0
+    return "\n".join([*lines, *_outputs(kernel, printer, packed)])
 
 
 def _uses(expr: sp.Expr, name: str) -> bool:
@@ -268,24 +270,31 @@ def _rest(kernel: Kernel, printer: Printer) -> list[str]:
     return [f"{INDENT}rest = [{before}{shifted}]"]
 
 
-def _outputs(kernel: Kernel, printer: Printer) -> list[str]:
+def _outputs(kernel: Kernel, printer: Printer, packed: int) -> list[str]:
     """The outputs; a dyad row by row first, then what other terms the entries have."""
     dyad = kernel.dyad
+    plain = [o for o in kernel.outputs if not dyad or o.array != dyad.array]
+    lines = [line for o in plain for line in _store(_place(o), o.expr, printer)]
     if not dyad:
-        return [line for o in kernel.outputs for line in _store(_place(o), o.expr, printer)]
-    letter, place = dyad.vector[0][0], dyad.array
-    lines = [
-        f"{INDENT}for i in range({len(dyad.vector)}):",
-        f"{INDENT * 2}np.multiply({dyad.weight} * {letter}[i], {letter}[i:], out={place}[i, i:])",
-    ]
-    for o in kernel.outputs:
+        return lines
+    letter, place, n = dyad.vector[0][0], dyad.array, len(dyad.vector)
+    product = f"np.multiply({dyad.weight} * {letter}[i], {letter}[i:], out={place}"
+    if packed:
+        lines += [f"{INDENT}first = 0", f"{INDENT}for i in range({n}):"]
+        lines += [f"{INDENT * 2}{product}[first : first + {n} - i])"]
+        lines += [f"{INDENT * 2}first += {n} - i"]
+    else:
+        lines += [f"{INDENT}for i in range({n}):", f"{INDENT * 2}{product}[i, i:])"]
+    for o in (o for o in kernel.outputs if o.array == dyad.array):
         extra = o.expr - dyad.term(o.index[0], o.index[1])
         if not extra:
             continue
         if o.expr.is_Add and not extra.is_Add:
-            lines += [f"{INDENT}{_place(o)} += {printer.text(extra)}"]
+            lines += [f"{INDENT}{_place(o, packed)} += {printer.text(extra)}"]
         else:
-            lines += _store(_place(o), o.expr, printer)
+            lines += _store(_place(o, packed), o.expr, printer)
+    if packed:
+        return lines
     return [
         *lines,
         f"{INDENT}for i in range(1, {len(dyad.vector)}):",
@@ -293,7 +302,11 @@ def _outputs(kernel: Kernel, printer: Printer) -> list[str]:
     ]
 
 
-def _place(o: Output) -> str:
+def _place(o: Output, packed: int = 0) -> str:
+    """Where an output goes; ``packed`` is the size of a matrix whose upper rows follow on."""
+    if packed:
+        i, j = o.index
+        return f"{o.array}[{i * packed - i * (i - 1) // 2 + j - i}]"
     return f"{o.array}[{', '.join(map(str, o.index))}]" if o.index else o.array
 
 
@@ -339,8 +352,8 @@ def _past_limit(kernel: Kernel, steps: dict[str, Step], printer: Printer) -> str
 
 def _public(kernel: Kernel, text: FunctionText, default: str) -> str:
     """The public function; ``default`` is that of the constants, if they have one."""
-    pair = len(text.outputs) == 2
-    kind = "Pair" if pair else "Array"
+    single = len(text.outputs) == 1
+    kind = ("Array", "Pair", "Triple")[len(text.outputs) - 1]
     names = ", ".join(text.outputs)
     given = ", ".join(f"{name}: ArrayLike" for name in text.inputs)
     arguments = f"{given}, constants: Constants{default}"
@@ -349,9 +362,9 @@ def _public(kernel: Kernel, text: FunctionText, default: str) -> str:
     )
     lines += [f'    """{text.doc}', '    """'] if "\n" in text.doc else [f'    """{text.doc}"""']
     inputs = "{" + ", ".join(f'"{name}": {name}' for name in text.inputs) + "}"
-    results = ", ".join(f'"{name}"' for name in text.outputs) + ("" if pair else ",")
+    results = ", ".join(f'"{name}"' for name in text.outputs) + ("," if single else "")
     lines += wrapped(
-        f"{names if pair else f'({names},)'} = _apply(",
+        f"{f'({names},)' if single else names} = _apply(",
         [f"_{kernel.name}", inputs, "constants", f"({results})", "out"],
         ")",
         ", ",

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
-$pair
+$tuples
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 

@@ -21,6 +21,7 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     stored_energy          30    4    1   12
     complementary_energy   38    6    1   13
     stiffness             100    4    0   24
+    loads_and_stiffness   110    4    0   28
     compliance            137    4    0   35
 """
 
@@ -38,6 +39,7 @@ from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
+Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
@@ -416,17 +418,17 @@ def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     tiny = TINY[q.dtype]
     x = np.sqrt(np.maximum(q, tiny))
     per_x = 1 / x
-    bend = c.alpha * per_x
-    turn = c.beta * per_x
-    shear = c.zeta * per_x
-    extend = c.eta * per_x
+    bend_per_x = c.alpha * per_x
+    turn_per_x = c.beta * per_x
+    shear_per_x = c.zeta * per_x
+    extend_per_x = c.eta * per_x
     t = np.empty((6, q.size), q.dtype)
-    np.multiply(bend, kappa_1, out=t[0])
-    np.multiply(bend, kappa_2, out=t[1])
-    np.multiply(kappa_3, turn, out=t[2])
-    np.multiply(lam_1, shear, out=t[3])
-    np.multiply(lam_2, shear, out=t[4])
-    np.multiply(extend, lam_3, out=t[5])
+    np.multiply(bend_per_x, kappa_1, out=t[0])
+    np.multiply(bend_per_x, kappa_2, out=t[1])
+    np.multiply(kappa_3, turn_per_x, out=t[2])
+    np.multiply(lam_1, shear_per_x, out=t[3])
+    np.multiply(lam_2, shear_per_x, out=t[4])
+    np.multiply(extend_per_x, lam_3, out=t[5])
     for i in range(6):
         np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
     stiff[0, 0] += c.alpha**2 * factor
@@ -447,6 +449,66 @@ def stiffness(u: ArrayLike, v: ArrayLike, constants: Constants, out: Array | Non
     """
     (stiff,) = _apply(_stiffness, {"u": u, "v": v}, constants, ("stiff",), out)
     return stiff
+
+
+def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n: Array, stiff: Array) -> None:
+    """(m, n) = factor K (u, v - e3) and D^2 W = factor (K + growth t t^T), as apart."""
+    rest = [*strains[:5], strains[5] - 1]
+    with np.errstate(over="ignore", invalid="ignore"):
+        kappa_1, kappa_2, kappa_3, lam_1, lam_2, lam_3, q = _reduce_strains(rest, c)
+    q = _within_limit(q)
+    growth, _, factor = _stiffen(q, c)
+    steep = factor * growth
+    bend = c.alpha * factor
+    turn = c.beta * factor
+    shear = c.zeta * factor
+    extend = c.eta * factor
+    tiny = TINY[q.dtype]
+    x = np.sqrt(np.maximum(q, tiny))
+    per_x = 1 / x
+    bend_per_x = c.alpha * per_x
+    turn_per_x = c.beta * per_x
+    shear_per_x = c.zeta * per_x
+    extend_per_x = c.eta * per_x
+    t = np.empty((6, q.size), q.dtype)
+    np.multiply(bend_per_x, kappa_1, out=t[0])
+    np.multiply(bend_per_x, kappa_2, out=t[1])
+    np.multiply(kappa_3, turn_per_x, out=t[2])
+    np.multiply(lam_1, shear_per_x, out=t[3])
+    np.multiply(lam_2, shear_per_x, out=t[4])
+    np.multiply(extend_per_x, lam_3, out=t[5])
+    np.multiply(bend, kappa_1, out=m[0])
+    np.multiply(bend, kappa_2, out=m[1])
+    np.multiply(kappa_3, turn, out=m[2])
+    np.multiply(lam_1, shear, out=n[0])
+    np.multiply(lam_2, shear, out=n[1])
+    np.multiply(extend, lam_3, out=n[2])
+    for i in range(6):
+        np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.alpha**2 * factor
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[3, 3] += c.zeta**2 * factor
+    stiff[4, 4] += c.zeta**2 * factor
+    stiff[5, 5] += c.eta**2 * factor
+    for i in range(1, 6):
+        stiff[i, :i] = stiff[:i, i]
+
+
+def loads_and_stiffness(
+    u: ArrayLike, v: ArrayLike, constants: Constants, out: Triple | None = None
+) -> Triple:
+    """Loads m, n and stiffness d(m, n)/d(u, v) at the strains u, v.
+
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
+    Answers m (3, ...) in force times length, n (3, ...) in force,
+    and the stiffness (6, 6, ...).
+    Rows and columns are ordered (m1, m2, m3, n1, n2, n3) and (u1, u2, u3, v1, v2, v3).
+    """
+    m, n, stiff = _apply(
+        _loads_and_stiffness, {"u": u, "v": v}, constants, ("m", "n", "stiff"), out
+    )
+    return m, n, stiff
 
 
 def _compliance(loads: Rows, c: Constants, soft: Array) -> None:

@@ -19,6 +19,7 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     stored_energy          27    4    1   11
     complementary_energy   36    6    1   11
     stiffness              71    4    0   21
+    loads_and_stiffness    78    4    0   24
     compliance            109    4    0   31
 """
 
@@ -36,6 +37,7 @@ from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
+Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
@@ -447,14 +449,14 @@ def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     tiny = TINY[q.dtype]
     x = np.sqrt(np.maximum(q, tiny))
     per_x = 1 / x
-    bend = c.alpha * per_x
-    turn = c.beta * per_x
-    extend = c.eta * per_x
+    bend_per_x = c.alpha * per_x
+    turn_per_x = c.beta * per_x
+    extend_per_x = c.eta * per_x
     t = np.empty((4, q.size), q.dtype)
-    np.multiply(bend, kappa_1, out=t[0])
-    np.multiply(bend, kappa_2, out=t[1])
-    np.multiply(torque, turn, out=t[2])
-    np.multiply(extend, tension, out=t[3])
+    np.multiply(bend_per_x, kappa_1, out=t[0])
+    np.multiply(bend_per_x, kappa_2, out=t[1])
+    np.multiply(torque, turn_per_x, out=t[2])
+    np.multiply(extend_per_x, tension, out=t[3])
     for i in range(4):
         np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
     stiff[0, 0] += c.alpha**2 * factor
@@ -474,6 +476,59 @@ def stiffness(u: ArrayLike, v3: ArrayLike, constants: Constants, out: Array | No
     """
     (stiff,) = _apply(_stiffness, {"u": u, "v3": v3}, constants, ("stiff",), out)
     return stiff
+
+
+def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n3: Array, stiff: Array) -> None:
+    """(m, n3) = factor K (u, v3 - 1) and D^2 W = factor (K + growth t t^T), as apart."""
+    rest = [*strains[:3], strains[3] - 1]
+    with np.errstate(over="ignore", invalid="ignore"):
+        kappa_1, kappa_2, torque, tension, q = _reduce_strains(rest, c)
+    q = _within_limit(q)
+    growth, _, factor = _stiffen(q, c)
+    steep = factor * growth
+    bend = c.alpha * factor
+    turn = c.beta * factor
+    extend = c.eta * factor
+    tiny = TINY[q.dtype]
+    x = np.sqrt(np.maximum(q, tiny))
+    per_x = 1 / x
+    bend_per_x = c.alpha * per_x
+    turn_per_x = c.beta * per_x
+    extend_per_x = c.eta * per_x
+    t = np.empty((4, q.size), q.dtype)
+    np.multiply(bend_per_x, kappa_1, out=t[0])
+    np.multiply(bend_per_x, kappa_2, out=t[1])
+    np.multiply(torque, turn_per_x, out=t[2])
+    np.multiply(extend_per_x, tension, out=t[3])
+    np.multiply(bend, kappa_1, out=m[0])
+    np.multiply(bend, kappa_2, out=m[1])
+    np.multiply(torque, turn, out=m[2])
+    np.multiply(extend, tension, out=n3)
+    for i in range(4):
+        np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.alpha**2 * factor
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 3] += c.iota * factor
+    stiff[3, 3] += c.eta**2 * factor
+    for i in range(1, 4):
+        stiff[i, :i] = stiff[:i, i]
+
+
+def loads_and_stiffness(
+    u: ArrayLike, v3: ArrayLike, constants: Constants, out: Triple | None = None
+) -> Triple:
+    """Loads m, n3 and stiffness d(m, n3)/d(u, v3) at the strains u, v3.
+
+    u (3, ...) in 1/length, v3 (...) plain, with Q < 1 (eq:strainlimiting).
+    Answers m (3, ...) in force times length, n3 (...) in force,
+    and the stiffness (4, 4, ...).
+    Rows and columns are ordered (m1, m2, m3, n3) and (u1, u2, u3, v3).
+    """
+    m, n3, stiff = _apply(
+        _loads_and_stiffness, {"u": u, "v3": v3}, constants, ("m", "n3", "stiff"), out
+    )
+    return m, n3, stiff
 
 
 def _compliance(loads: Rows, c: Constants, soft: Array) -> None:

@@ -19,6 +19,7 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     stored_energy          20    4    1    8
     complementary_energy   29    6    1   10
     stiffness              46    4    0   15
+    loads_and_stiffness    51    4    0   17
     compliance             65    4    0   22
 """
 
@@ -35,6 +36,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
+Pair = tuple[Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
@@ -379,12 +381,12 @@ def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     tiny = TINY[q.dtype]
     x = np.sqrt(np.maximum(q, tiny))
     per_x = 1 / x
-    bend = c.alpha * per_x
-    turn = c.beta * per_x
+    bend_per_x = c.alpha * per_x
+    turn_per_x = c.beta * per_x
     t = np.empty((3, q.size), q.dtype)
-    np.multiply(bend, kappa_1, out=t[0])
-    np.multiply(bend, kappa_2, out=t[1])
-    np.multiply(kappa_3, turn, out=t[2])
+    np.multiply(bend_per_x, kappa_1, out=t[0])
+    np.multiply(bend_per_x, kappa_2, out=t[1])
+    np.multiply(kappa_3, turn_per_x, out=t[2])
     for i in range(3):
         np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
     stiff[0, 0] += c.alpha**2 * factor
@@ -402,6 +404,48 @@ def stiffness(u: ArrayLike, constants: Constants, out: Array | None = None) -> A
     """
     (stiff,) = _apply(_stiffness, {"u": u}, constants, ("stiff",), out)
     return stiff
+
+
+def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, stiff: Array) -> None:
+    """m = factor K u and D^2 W = factor (K + growth t t^T), as apart."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        kappa_1, kappa_2, kappa_3, q = _reduce_strains(strains, c)
+    q = _within_limit(q)
+    growth, _, factor = _stiffen(q, c)
+    steep = factor * growth
+    bend = c.alpha * factor
+    turn = c.beta * factor
+    tiny = TINY[q.dtype]
+    x = np.sqrt(np.maximum(q, tiny))
+    per_x = 1 / x
+    bend_per_x = c.alpha * per_x
+    turn_per_x = c.beta * per_x
+    t = np.empty((3, q.size), q.dtype)
+    np.multiply(bend_per_x, kappa_1, out=t[0])
+    np.multiply(bend_per_x, kappa_2, out=t[1])
+    np.multiply(kappa_3, turn_per_x, out=t[2])
+    np.multiply(bend, kappa_1, out=m[0])
+    np.multiply(bend, kappa_2, out=m[1])
+    np.multiply(kappa_3, turn, out=m[2])
+    for i in range(3):
+        np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.alpha**2 * factor
+    stiff[2, 2] += c.beta**2 * factor
+    for i in range(1, 3):
+        stiff[i, :i] = stiff[:i, i]
+
+
+def loads_and_stiffness(u: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+    """Loads m and stiffness d m/d u at the strains u.
+
+    u (3, ...) in 1/length, with Q < 1 (eq:strainlimiting).
+    Answers m (3, ...) in force times length,
+    and the stiffness (3, 3, ...).
+    Rows and columns are ordered (m1, m2, m3) and (u1, u2, u3).
+    """
+    m, stiff = _apply(_loads_and_stiffness, {"u": u}, constants, ("m", "stiff"), out)
+    return m, stiff
 
 
 def _compliance(loads: Rows, c: Constants, soft: Array) -> None:

@@ -19,6 +19,7 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     stored_energy          21    4    1    9
     complementary_energy   29    6    1   10
     stiffness              48    4    0   17
+    loads_and_stiffness    54    4    0   20
     compliance             65    4    0   22
 """
 
@@ -36,6 +37,7 @@ from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
+Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
@@ -396,13 +398,13 @@ def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     tiny = TINY[q.dtype]
     x = np.sqrt(np.maximum(q, tiny))
     per_x = 1 / x
-    bend = c.alpha * per_x
-    shear = c.zeta * per_x
-    extend = c.eta * per_x
+    bend_per_x = c.alpha * per_x
+    shear_per_x = c.zeta * per_x
+    extend_per_x = c.eta * per_x
     t = np.empty((3, q.size), q.dtype)
-    np.multiply(bend, kappa_2, out=t[0])
-    np.multiply(lam_1, shear, out=t[1])
-    np.multiply(extend, lam_3, out=t[2])
+    np.multiply(bend_per_x, kappa_2, out=t[0])
+    np.multiply(lam_1, shear_per_x, out=t[1])
+    np.multiply(extend_per_x, lam_3, out=t[2])
     for i in range(3):
         np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
     stiff[0, 0] += c.alpha**2 * factor
@@ -420,6 +422,55 @@ def stiffness(u2: ArrayLike, v: ArrayLike, constants: Constants, out: Array | No
     """
     (stiff,) = _apply(_stiffness, {"u2": u2, "v": v}, constants, ("stiff",), out)
     return stiff
+
+
+def _loads_and_stiffness(strains: Rows, c: Constants, m2: Array, n: Array, stiff: Array) -> None:
+    """(m2, n1, n3) = factor K (u2, v1, v3 - 1) and D^2 W = factor (K + growth t t^T), as apart."""
+    rest = [*strains[:2], strains[2] - 1]
+    with np.errstate(over="ignore", invalid="ignore"):
+        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c)
+    q = _within_limit(q)
+    growth, _, factor = _stiffen(q, c)
+    steep = factor * growth
+    bend = c.alpha * factor
+    shear = c.zeta * factor
+    extend = c.eta * factor
+    tiny = TINY[q.dtype]
+    x = np.sqrt(np.maximum(q, tiny))
+    per_x = 1 / x
+    bend_per_x = c.alpha * per_x
+    shear_per_x = c.zeta * per_x
+    extend_per_x = c.eta * per_x
+    t = np.empty((3, q.size), q.dtype)
+    np.multiply(bend_per_x, kappa_2, out=t[0])
+    np.multiply(lam_1, shear_per_x, out=t[1])
+    np.multiply(extend_per_x, lam_3, out=t[2])
+    np.multiply(bend, kappa_2, out=m2)
+    np.multiply(lam_1, shear, out=n[0])
+    np.multiply(extend, lam_3, out=n[1])
+    for i in range(3):
+        np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.zeta**2 * factor
+    stiff[2, 2] += c.eta**2 * factor
+    for i in range(1, 3):
+        stiff[i, :i] = stiff[:i, i]
+
+
+def loads_and_stiffness(
+    u2: ArrayLike, v: ArrayLike, constants: Constants, out: Triple | None = None
+) -> Triple:
+    """Loads m2, n and stiffness d(m2, n)/d(u2, v) at the strains u2, v.
+
+    u2 (...) in 1/length, v (2, ...) plain (v1 and v3), with Q < 1 (eq:strainlimiting).
+    Answers m2 (...) in force times length, n (2, ...) in force (n1 and n3),
+    and the stiffness (3, 3, ...).
+    Rows and columns are ordered (m2, n1, n3) and (u2, v1, v3).
+    """
+    m2, n, stiff = _apply(
+        _loads_and_stiffness, {"u2": u2, "v": v}, constants, ("m2", "n", "stiff"), out
+    )
+    return m2, n, stiff
 
 
 def _compliance(loads: Rows, c: Constants, soft: Array) -> None:

@@ -65,6 +65,7 @@ def test_lowered_kernel_is_the_derived_expression(name: str) -> None:
         "stored_energy": lambda: [theory.stored_energy()],
         "complementary_energy": lambda: [theory.complementary_energy()],
         "stiffness": lambda: _upper(theory.stiffness()),
+        "loads_and_stiffness": lambda: [*theory.loads(), *_upper(theory.stiffness())],
         "compliance": lambda: _upper(theory.compliance()),
     }[name]()
     constants = CONSTANTS[0]

@@ -18,7 +18,8 @@ from rodproof.derivations.theory import constrained
 from rodproof.generated.scenes import dsdna, full_rod, kirchhoff
 
 SCENES = {name: scene.committed(name) for name in scene.committed_names()}
-CALLS = [(name, f) for name, s in SCENES.items() for f in s.functions]
+FUSED = "loads_and_stiffness"
+CALLS = [(name, f) for name, s in SCENES.items() for f in s.functions if f != FUSED]
 GOOD = {"alpha": 0.7, "beta": 1.1, "zeta": 0.9, "eta": 1.6, "iota": -0.4, "gamma": 2.3, "p": 3.3}
 OF_LOADS = ("strains", "complementary_energy", "compliance")
 
@@ -100,7 +101,7 @@ def test_components_last(name: str, shape: tuple) -> None:
     mine, _ = constants(last, module)
     usual = importlib.import_module(f"rodproof.generated.scenes.{name}")
     c, _ = constants(first, usual)
-    for function in last.functions:
+    for function in (f for f in last.functions if f != FUSED):
         given, _ = inputs(last, function, shape)
         turned = [np.moveaxis(a, 0, -1) if a.ndim > len(shape) else a for a in given]
         got = getattr(module, function)(*turned, mine)
@@ -201,6 +202,42 @@ def test_a_constrained_rod_is_the_limit_of_stiff_ones(constraint: str) -> None:
     np.testing.assert_allclose(got, want[list(at)], rtol=1e-8)
     lost = [i for i in range(6) if i not in at]
     np.testing.assert_allclose(want[lost], [float(i == 5) for i in lost], atol=1e-8)
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("name", [n for n, s in SCENES.items() if FUSED in s.functions])
+def test_fused_function_has_the_same_numbers_to_the_bit(name: str, dtype: type) -> None:
+    own, module = SCENES[name], importlib.import_module(f"rodproof.generated.scenes.{name}")
+    mine, _ = constants(own, module)
+    given, _ = inputs(own, FUSED, (4, 5), dtype)
+    *loads, stiff = module.loads_and_stiffness(*given, mine)
+    apart = module.loads(*given, mine)
+    apart = apart if isinstance(apart, tuple) else (apart,)
+    assert all(np.array_equal(a, b) for a, b in zip(loads, apart, strict=True))
+    assert np.array_equal(stiff, module.stiffness(*given, mine))
+    out = tuple(np.empty_like(part) for part in (*loads, stiff))
+    again = module.loads_and_stiffness(*given, mine, out=out)
+    assert all(a is b for a, b in zip(again, out, strict=True))
+
+
+@pytest.mark.parametrize("layout", ["first", "last"])
+@pytest.mark.parametrize("constraints", [(), ("planar",), ("unshearable",)])
+def test_packed_matrices(constraints: tuple, layout: str) -> None:
+    """The entries on and above the diagonal, row by row, to the bit those of the whole."""
+    functions = ("stiffness", FUSED, "compliance")
+    settings = {"functions": functions, "constraints": constraints}
+    whole = Scene("a", **settings)
+    packed = Scene("a", **settings, matrix="packed", layout=layout)
+    a, b = module_of(whole), module_of(packed)
+    for function in functions:
+        given, _ = inputs(whole, function, (7,))
+        turned = [np.moveaxis(g, 0, -1) if g.ndim > 1 and layout == "last" else g for g in given]
+        want = getattr(a, function)(*given, constants(whole, a)[0])
+        got = getattr(b, function)(*turned, constants(packed, b)[0])
+        if function == FUSED:
+            want, got = want[-1], got[-1]
+        upper = want[np.triu_indices(len(want))]
+        assert np.array_equal(got, upper if layout == "first" else upper.T)
 
 
 def test_moduli_of_dna() -> None:

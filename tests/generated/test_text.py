@@ -148,6 +148,8 @@ def run(module: ModuleType, own: str, name: str, point: tuple) -> dict[tuple, An
 
 def true_values(own: str, name: str, point: tuple) -> dict[tuple, Any]:
     """The naive full rod at the scene's loads or strains, at the places of the scene's arrays."""
+    if name == "loads_and_stiffness":
+        return true_values(own, "loads", point) | true_values(own, "stiffness", point)
     kernel, at = NAIVE[name], live(SCENES[own])
     rest = (0, 0, 0, 0, 0, 0 if kernel.inputs[0] == "m1" else 1)
     whole = [point[i] if i in at.loads else rest[i] for i in range(6)]
