@@ -87,6 +87,7 @@ class Field:
         self._reductions: dict[int, tuple[int, Poly]] = {}  # gen**k = polynomial
         self._positive_slots: set[int] = set()
         self._nonnegative_slots: set[int] = set()  # |x| and its powers, which may vanish
+        self._unreal: set[int] = set()  # not known to be real: its square may be negative
         self._positive_factors: set[str] = set()
         self._cache: dict[sp.Expr, Fraction] = {}
         self._angles: list[sp.Expr] = []
@@ -165,6 +166,8 @@ class Field:
                     sign *= s
         if len(unknown) == 1:
             self._positive_factors.add(str(unknown[0] * sign))
+        elif not unknown and sign < 0:
+            raise OutOfReach(f"{fact} is assumed to be positive and is negative")
         elif len(unknown) == 2:
             for orientation in (1, -1):
                 pair = (unknown[0] * orientation, unknown[1] * (sign * orientation))
@@ -199,7 +202,10 @@ class Field:
         if isinstance(expr, sp.Pow):
             base, exponent = expr.as_base_exp()
             if exponent.is_Integer:
-                return self.fraction(base).power(int(exponent))
+                found = self.fraction(base)
+                if exponent < 0 and self._reduce(found.num).is_zero():
+                    raise OutOfReach(f"division by {base}, which is identically zero")
+                return found.power(int(exponent))
             if isinstance(base, sp.Pow) and base.exp.is_Integer and self.sign(base.base) == 1:
                 return self.fraction(base.base ** (base.exp * exponent))  # (b^k)^e with b > 0
             return self._power(self.fraction(base), exponent)
@@ -228,6 +234,8 @@ class Field:
                 raise OutOfReach(f"more than {_POOL} independent quantities in one identity")
             self._slots[key] = slot
             self._meaning.append(key if isinstance(key, sp.Expr) else sp.Dummy())
+            if isinstance(key, sp.Expr) and not key.is_extended_real:
+                self._unreal.add(slot)
             if positive:
                 self._positive_slots.add(slot)
         return slot
@@ -239,7 +247,8 @@ class Field:
         slot = self._slot(expr, positive=bool(expr.is_positive))
         self._nonnegative_slots.add(slot)
         square = self.fraction(expr.args[0]).power(2)
-        if square.den.is_one() and slot not in self._reductions:
+        real = expr.args[0].is_extended_real
+        if real and square.den.is_one() and slot not in self._reductions:
             self._reductions[slot] = (2, square.num)
         return self._of(slot)
 
@@ -290,12 +299,13 @@ class Field:
         if content < 0:
             content, sign = -content, -sign
         result *= self._power_of_rational(content, exponent)
-        if len(rest) == 1 and rest[0][1] % 2:  # the base is positive, so is this oriented factor
+        # A base whose sign is not known is not negative where its power is defined, but may vanish.
+        if len(rest) == 1 and rest[0][1] % 2:
             factor, k = rest[0]
-            return result * self._power_of_factor(factor * sign, exponent * k)
+            return result * self._power_of_factor(factor * sign, exponent * k, positive=False)
         if rest:
             whole = sp.Mul(sign, *(self._expression(f) ** k for f, k in rest))
-            result *= self._atom(whole, exponent, whole_positive=True)
+            result *= self._atom(whole, exponent, positive=False)
         elif sign < 0:
             raise OutOfReach(f"a negative number to the power {exponent}")
         return result
@@ -307,39 +317,48 @@ class Field:
                 result *= self._atom(sp.Integer(prime), exponent * orientation * k)
         return result
 
-    def _power_of_factor(self, factor: Poly, exponent: sp.Expr) -> Fraction:
+    def _power_of_factor(
+        self, factor: Poly, exponent: sp.Expr, *, positive: bool = True
+    ) -> Fraction:
         slot = self._single(factor)
         if slot is not None and slot in self._powers:  # (b^e)^f = b^{e f}
             power = self._powers[slot]
-            return self._atom(power.base, power.exponent * exponent)
-        return self._atom(self._expression(factor), exponent)
+            return self._atom(power.base, power.exponent * exponent, positive=positive)
+        return self._atom(self._expression(factor), exponent, positive=positive)
 
-    def _atom(self, base: sp.Expr, exponent: sp.Expr, *, whole_positive: bool = False) -> Fraction:
-        """`base ** exponent` as integer powers of generators `base ** unit`."""
+    def _atom(self, base: sp.Expr, exponent: sp.Expr, *, positive: bool = True) -> Fraction:
+        """`base ** exponent` as integer powers of generators `base ** unit`.
+
+        positive: the base is known not to vanish; else its powers are only not negative.
+        """
         result = self._constant(fmpq(1))
         for term in sp.Add.make_args(sp.expand(exponent)):
             number, unit = term.as_coeff_Mul()
             if not isinstance(number, sp.Rational):
                 raise OutOfReach(f"the exponent {exponent} is not a rational combination")
             if unit == 1:
-                result *= self._rational_power(base, number)
+                result *= self._rational_power(base, number, positive=positive)
                 continue
             halves = 2 * number
             if not halves.is_Integer:
                 raise OutOfReach(f"the exponent {term} is not a half-integer multiple of {unit}")
-            slot = self._slot((base, unit / 2), positive=not isinstance(base, sp.Abs))
-            if isinstance(base, sp.Abs):
-                self._nonnegative_slots.add(slot)
+            slot = self._root((base, unit / 2), positive=positive)
             self._powers[slot] = _Power(base, unit / 2)
             self._meaning[slot] = sp.Pow(base, unit / 2, evaluate=False)
             result *= self._of(slot).power(int(halves))
         return result
 
-    def _rational_power(self, base: sp.Expr, exponent: sp.Rational) -> Fraction:
+    def _root(self, key: object, *, positive: bool) -> int:
+        """The slot of a real power, which vanishes with its base if that is not known positive."""
+        slot = self._slot(key, positive=positive)
+        (self._positive_slots if positive else self._nonnegative_slots).add(slot)
+        return slot
+
+    def _rational_power(self, base: sp.Expr, exponent: sp.Rational, *, positive: bool) -> Fraction:
         if exponent.is_Integer:
             return self.fraction(base).power(int(exponent))
         order = int(exponent.q)
-        slot = self._slot((base, sp.Rational(1, order)), positive=True)
+        slot = self._root((base, sp.Rational(1, order)), positive=positive)
         if slot not in self._powers:
             self._powers[slot] = _Power(base, sp.Rational(1, order))
             self._meaning[slot] = sp.Pow(base, sp.Rational(1, order), evaluate=False)
@@ -365,7 +384,7 @@ class Field:
             return -1
         used = {i for i, d in enumerate(factor.degrees()) if d}
         signed = used - self._positive_slots - self._nonnegative_slots
-        if any(m[i] % 2 for m in factor.monoms() for i in signed):
+        if any(m[i] % 2 or (m[i] and i in self._unreal) for m in factor.monoms() for i in signed):
             return None
         # A sum of terms that are never negative could still vanish with its variables: one term
         # must be free of those that may be zero.

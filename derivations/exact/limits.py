@@ -30,20 +30,27 @@ def limit(
 ) -> sp.Expr:
     """The limit of `expr` as `variable` tends to `target` (a number, or +oo or -oo).
 
-    A finite target is approached from above. positive: quantities known to be positive, which
-    decide signs under real powers. Raises OutOfReach where leading terms do not decide.
+    A finite target is approached from above, and from below too if the variable may have either
+    sign. positive: quantities known to be positive, which decide signs under real powers. Raises
+    OutOfReach where leading terms do not decide.
     """
+    field = Field(positive)
     if target in (sp.oo, -sp.oo):
-        replacement = 1 / _h if target == sp.oo else -1 / _h
-    else:
-        replacement = target + _h
-    at = expr.subs(variable, replacement)
-    return _value(at, Field(positive))
+        return _value(expr.subs(variable, 1 / _h if target == sp.oo else -1 / _h), field)
+    above = _value(expr.subs(variable, target + _h), field)
+    if not variable.is_nonnegative:
+        below = _value(expr.subs(variable, target - _h), field)
+        if above != below and not field.equal(above, below):
+            raise OutOfReach(f"{expr} tends to {above} from above and to {below} from below")
+    return above
 
 
 def _value(expr: sp.Expr, field: Field) -> sp.Expr:
     if isinstance(expr, sp.acos | sp.asin | sp.atan | sp.cos | sp.sin):
-        return expr.func(_value(expr.args[0], field))  # continuous: the limit goes inside
+        inner = _value(expr.args[0], field)
+        if inner.is_infinite and not isinstance(expr, sp.atan):
+            raise OutOfReach(f"{expr} has no limit where its argument grows without bound")
+        return expr.func(inner)  # continuous: the limit goes inside
     term = leading_term(expr, field)
     if term.coefficient == 0 or term.exponent.is_positive:
         return sp.Integer(0)
@@ -89,6 +96,8 @@ def _power(base: LeadingTerm, exponent: sp.Expr, field: Field) -> LeadingTerm:
         raise OutOfReach("the variable of the limit stands in an exponent")
     if not exponent.is_Integer and field.sign(base.coefficient) != 1:
         raise OutOfReach(f"a real power of {base.coefficient}, which is not known to be positive")
+    if not exponent.is_nonnegative and not field.sign(base.coefficient):
+        raise OutOfReach(f"a quotient by {base.coefficient}, which is not known to be nonzero")
     return LeadingTerm(base.coefficient**exponent, sp.expand(base.exponent * exponent))
 
 

@@ -108,9 +108,9 @@ class SameCondition:
             if self.derived is None:
                 if not isinstance(printed, Iff):
                     return REJECTED
-                first, second = (difference(side) for side in printed.args)
+                first, second = (difference(side, strict=True) for side in printed.args)
             else:
-                first, second = difference(_one(printed)), self.derived
+                first, second = difference(_one(printed), strict=True), self.derived
         except _ERRORS:
             return REJECTED
         return _compared(first, second, "ratio of the two sides positive, with D = root^2")
@@ -208,7 +208,7 @@ class OrientationChain:
         if first not in ("<", "<=") or (second, third) != ("<", "<"):
             return REJECTED
         try:
-            given = difference(condition)
+            given = difference(condition, strict=True)
             below = infimum(v3 - least)
             gaps = [Field().is_zero(e) for e in rooted(below.center**2 - below.bound**2)]
             positive = [Field().sign(e) == 1 for e in rooted(below.center)]

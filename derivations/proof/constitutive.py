@@ -8,7 +8,7 @@ from typing import Any
 import sympy as sp
 
 from rodproof.derivations.exact.field import Field
-from rodproof.derivations.notation import Chain, Every
+from rodproof.derivations.notation import Chain, Every, W, Wstar, m, n, u, v
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.domains import FUNCTIONS, NO_LOAD, ON_LOADS, ON_STRAINS, REST
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
@@ -251,10 +251,11 @@ LAW_ON_LOADS = Meaning(
 )
 
 COMPLEMENTARY_POTENTIAL = Potential(
-    ON_LOADS, tuple(zip(LOADS, theory.law_of_strains(), strict=True)), tuple(NO_LOAD.items())
+    ON_LOADS, Wstar(m, n), tuple(zip(LOADS, theory.law_of_strains(), strict=True)),
+    tuple(NO_LOAD.items()),
 )
 STORED_POTENTIAL = Potential(
-    ON_STRAINS, tuple(zip(STRAINS, theory.loads(), strict=True)), tuple(REST.items())
+    ON_STRAINS, W(u, v), tuple(zip(STRAINS, theory.loads(), strict=True)), tuple(REST.items())
 )
 
 

@@ -180,6 +180,8 @@ class NoBending:
 
     def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
         (claim,) = instances(printed)
+        if not isinstance(claim, Implies) or not all(isinstance(q, Every) for q in claim.args):
+            return _REJECTED
         hypothesis, conclusion = claim.args
         zero = {_jets(h) for h in hypothesis.args}
         if zero != {euler.M1, euler.M2}:

@@ -19,7 +19,7 @@ import sympy as sp
 
 from rodproof.derivations.notation import Cross, Dot, Prime, Wstar, m, n
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.domains import ON_LOADS
+from rodproof.derivations.proof.domains import ON_LOADS, _of_loads
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
 from rodproof.derivations.proof.orbits import (
     Orbit,
@@ -295,7 +295,7 @@ MOVING_LOADS = replace(
     name="all loads of an equilibrium without body loads",
     functions={
         **ON_LOADS.functions,
-        Wstar: lambda *_: constitutive.complementary_energy().subs(gamma, 1),
+        Wstar: _of_loads(constitutive.complementary_energy().subs(gamma, 1)),
         Prime: _load_prime,
     },
     route=_integral_route,

@@ -19,10 +19,12 @@ from rodproof.derivations.symbols import CONSTANTS
 _excess = sp.Symbol("excess", positive=True)
 
 
-def difference(claim: sp.Basic) -> sp.Expr:
-    """What is positive (or not negative) if the single inequality holds."""
+def difference(claim: sp.Basic, *, strict: bool = False) -> sp.Expr:
+    """What is positive (or not negative, unless `strict`) if the single inequality holds."""
     if not isinstance(claim, Chain) or len(claim.relations) != 1 or claim.relations[0] == "=":
         raise IllTyped("one inequality is needed here")
+    if strict and claim.relations[0] not in ("<", ">"):
+        raise IllTyped("a strict inequality is needed here")
     left, right = claim.sides
     return left - right if claim.relations[0] in (">", ">=") else right - left
 
@@ -53,8 +55,8 @@ class Implication:
             return REJECTED
         try:
             hypotheses, conclusions = (self.vectors.spread(part).args for part in printed.args)
-            (given,) = (self.meaning.interpret(difference(h)) for h in hypotheses)
-            wanted = [self.meaning.interpret(difference(c)) for c in conclusions]
+            (given,) = (self.meaning.interpret(difference(h, strict=True)) for h in hypotheses)
+            wanted = [self.meaning.interpret(difference(c, strict=True)) for c in conclusions]
         except (IllTyped, ValueError):
             return REJECTED
         try:

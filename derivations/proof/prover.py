@@ -94,6 +94,8 @@ def _decide_claim(claim: sp.Basic, meaning: Meaning, explain: bool) -> Decision:
         return _decide_chain(claim, meaning, explain)
     if isinstance(claim, Implies):
         hypothesis, conclusion = claim.args
+        if not isinstance(hypothesis, Chain) or not set(hypothesis.relations) <= {"<", ">"}:
+            raise IllTyped("only strict inequalities narrow a domain")
         facts = tuple(_difference(link, meaning) for link in hypothesis.links())
         return _decide_chain(conclusion, _given(meaning, hypothesis, facts), explain)
     if isinstance(claim, Iff):
@@ -109,7 +111,10 @@ def _given(meaning: Meaning, hypothesis: Chain, facts: tuple[sp.Expr, ...]) -> M
 
     def sample(seed: int) -> Point:
         found = (meaning.sample(k) for k in range(seed, seed + 200))
-        return next((point for point in found if meets(point)), meaning.sample(seed))
+        point = next((point for point in found if meets(point)), None)
+        if point is None:
+            raise IllTyped(f"no generic point meets {hypothesis}: nothing would be claimed")
+        return point
 
     return replace(
         meaning,
@@ -146,8 +151,8 @@ def _decide_chain(claim: Chain, meaning: Meaning, explain: bool) -> Decision:
 
 
 def _edge_failure(link: tuple[sp.Expr, str, sp.Expr], meaning: Meaning) -> Decision | None:
-    """Equalities must also hold where the generic argument says nothing (zero load, rest)."""
-    for edge in meaning.edges if link[1] == "=" else ():
+    """Claims must also hold where the generic argument says nothing (zero load, rest)."""
+    for edge in meaning.edges:
         try:
             sides = [meaning.interpret(side).subs(edge) for side in (link[0], link[2])]
         except ZeroDivisionError:
@@ -158,10 +163,24 @@ def _edge_failure(link: tuple[sp.Expr, str, sp.Expr], meaning: Meaning) -> Decis
         if undefined or infinite:
             found = Counterexample(where, *(str(s) for s in sides))
             return Decision(False, True, "undefined on the edge of the domain", found)
+        if link[1] != "=":
+            if not _ordered(sides, link[1], meaning, edge):
+                return Decision(None, False, f"{DIGITS} digits; open on the edge of the domain")
+            continue
         if sp.expand(sides[0] - sides[1]) != 0 and not Field().equal(*sides):
             found = Counterexample(where, *(str(s) for s in sides))
             return Decision(False, True, "counterexample on the edge of the domain", found)
     return None
+
+
+def _ordered(
+    sides: list[sp.Expr], relation: str, meaning: Meaning, edge: Mapping[sp.Symbol, sp.Expr]
+) -> bool:
+    """An inequality on the edge, by what is positive there still."""
+    facts = (fact.subs(edge) for fact in meaning.positive)
+    field = Field(fact for fact in facts if fact.free_symbols)
+    sign = field.sign(_ORDER[relation] * (sides[0] - sides[1]))
+    return sign == 1 or (sign == 0 and relation in ("<=", ">="))
 
 
 def _undefined(side: sp.Expr, edge: Mapping[sp.Symbol, sp.Expr], meaning: Meaning) -> bool:
@@ -180,6 +199,9 @@ def _power_of_zero(expr: sp.Basic) -> bool:
 def _decide_equivalence(claim: Iff, meaning: Meaning) -> Decision:
     """a > 0 iff b > 0, because a is b times something positive (both ways at once)."""
     field = Field(meaning.positive)
+    for side in claim.args:
+        if not isinstance(side, Chain) or side.relations not in (("<",), (">",)):
+            raise IllTyped("only single strict inequalities are compared")
     differences = [_difference(next(iter(side.links())), meaning) for side in claim.args]
     for other in differences[1:]:
         if field.sign(differences[0] / other) != 1:

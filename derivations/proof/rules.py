@@ -35,10 +35,12 @@ class Potential:
     """`F = expression` where F has the given gradient and vanishes at `rest`.
 
     Two functions on a connected domain with the same gradient and one common value agree, so an
-    energy is decided without evaluating its integral.
+    energy is decided without evaluating its integral. energy: F as the notation writes it, with
+    its arguments in their order.
     """
 
     meaning: Meaning
+    energy: sp.Expr
     gradient: tuple[tuple[sp.Symbol, sp.Expr], ...]
     rest: tuple[tuple[sp.Symbol, sp.Expr], ...]
 
@@ -48,7 +50,9 @@ class Potential:
             return _REJECTED
         function, expression = claim.sides
         try:
-            factor = sp.cancel(function / self._head(function))  # a mutant may scale the left side
+            factor = sp.cancel(function / self.energy)  # a mutant may scale the left side
+            if not factor.is_number or expression.has(type(self.energy)):
+                return _REJECTED
             energy = self.meaning.interpret(expression) / factor
             slopes = tuple((sp.diff(energy, x), slope) for x, slope in self.gradient)
             at_rest = _collapse(energy.subs(dict(self.rest)))
@@ -70,10 +74,6 @@ class Potential:
 
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
         return Identity(self.meaning).confirm(printed)
-
-    @staticmethod
-    def _head(function: sp.Expr) -> sp.Expr:
-        return next(f for f in sp.Mul.make_args(function) if f.is_Function)
 
 
 def _collapse(expr: sp.Expr) -> sp.Expr:
@@ -313,13 +313,16 @@ class DefiniteForms:
         if len(stated) != len(self.forms) or not definite:
             return _REJECTED
         hypotheses = hypothesis.args if isinstance(hypothesis, Every) else (hypothesis,)
-        facts = [_excess(h) for h in hypotheses]
+        try:
+            facts = [_excess(h) for h in hypotheses]
+            field = Field(facts)
+        except (IllTyped, OutOfReach):
+            return _REJECTED
         if explain:
             for point in self.candidates():
                 failure = self._failure(point, facts)
                 if failure is not None:
                     return Decision(False, True, "counterexample", failure)
-        field = Field(facts)
         for statement, (form, variables, rest) in zip(stated, self.forms, strict=True):
             if not field.equal(statement.args[0], form):
                 found = _different_form(statement.args[0], form, variables) if explain else None
@@ -353,8 +356,10 @@ class DefiniteForms:
 
 
 def _excess(claim: sp.Basic) -> sp.Expr:
-    left, relation, right = next(iter(claim.links()))
-    return left - right if relation == ">" else right - left
+    if not isinstance(claim, Chain) or claim.relations not in (("<",), (">",)):
+        raise IllTyped("a hypothesis on the constants is one strict inequality")
+    left, right = claim.sides
+    return left - right if claim.relations == (">",) else right - left
 
 
 def _form_matrix(

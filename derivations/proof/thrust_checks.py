@@ -11,7 +11,7 @@ import sympy as sp
 
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field
-from rodproof.derivations.notation import Chain, Every, Implies, Prime, instances
+from rodproof.derivations.notation import Chain, Either, Every, Iff, Implies, Prime, instances
 from rodproof.derivations.proof import thrust as domains
 from rodproof.derivations.proof.equilibrium import (
     balance_residual,
@@ -396,8 +396,12 @@ class Alternatives:
 
     def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
         given, claim = printed.args if isinstance(printed, Implies) else (None, printed)
+        if not isinstance(claim, Iff) or len(claim.args) != 2:
+            return REJECTED
         whole, either = instances(claim)[0].args
-        if not self.equation.decide(whole).holds:
+        if not isinstance(either, Either) or not self.equation.decide(whole).holds:
+            return REJECTED
+        if any(alternative.relations != ("=",) for alternative in either.args):
             return REJECTED
         meaning = self.equation.meaning
         sides = [alternative.sides for alternative in either.args]
@@ -455,9 +459,13 @@ class Vanish:
     unknown: tuple[sp.Symbol, ...]
 
     def decide(self, printed: sp.Basic, *, explain: bool = True) -> Decision:
+        if not isinstance(printed, Iff) or len(printed.args) != 2:
+            return REJECTED
         for side in printed.args:
             equations = []
             for claim in claims(side):
+                if not isinstance(claim, Chain) or set(claim.relations) != {"="}:
+                    return REJECTED
                 for left, _, right in claim.links():
                     equations.append(self.meaning.interpret(left - right))
             system = sp.Matrix(equations)
