@@ -42,13 +42,13 @@ _SPECIAL = {
     "\\": r"\textbackslash{}",
 }
 _MATH_WORD = re.compile(
-    r"[\^_*=<>/]|^-?\d*(" + "|".join(_GREEK) + r")$|^[a-zA-Z]$|^[A-Za-z]\([^)]*\)$|^oo$|->"
-    r"|^\{?\\[a-z]|^[uvmnabgMN][123]$|^[A-Za-z](?:'+|\([^)]*)$"
+    r"[\^_*=<>/]|^-?\d*(" + "|".join(_GREEK) + r")$|^-?[a-zA-Z]$|^[A-Za-z]\([^)]*\)$|^oo$|->"
+    r"|^\{?\\[a-z]|^\|[A-Za-z]\|$|^[uvmnabgMN][123]$|^[A-Za-z](?:'+|\([^)]*)$"
     r"|^-?(?:sin|cos|tan|cot|" + "|".join(_GREEK) + r")(?:'+|'*\([^)]*)$"
 )
 _NUMBER = re.compile(r"-?\d+([./]\d+)?[.,;:)]*$")
 _ESCAPED = re.compile("|".join(re.escape(tex) for tex in sorted(_SPECIAL.values(), key=len)[::-1]))
-_OPERATORS = frozenset(("=", "<", ">", ">=", "<=", "->", "+", "-", ".", "x"))
+_OPERATORS = frozenset(("=", "!=", "<", ">", ">=", "<=", "->", "+", "-", ".", "x"))
 
 
 def escape(text: str) -> str:

@@ -26,9 +26,10 @@ _STYLES = {
     "double-struck": "DOUBLE-STRUCK",
 }
 _NAMED = frozenset(("sin", "cos", "tan", "cot", "csc", "log", "exp", "det", "dim", "diag"))
+_PRIMES = frozenset("′″‴'")
 _LIMITS = frozenset(("lim", "sup", "inf", "max", "min"))
 _RELATIONS = frozenset("=<>≤≥≠→∈+−-±∓⋅×,")
-_SPACES = {"/": "0", "⟹": "0.7em", "⟺": "0.7em", "⇒": "0.5em", "↗": "0.28em"}
+_SPACES = {"/": "0", "|": "0", "⟹": "0.7em", "⟺": "0.7em", "⇒": "0.5em", "↗": "0.28em"}
 _TALL = frozenset(("mfrac", "msqrt", "mtable", "msup", "msubsup", "munder", "mover", "munderover"))
 _SCRIPTS = frozenset(("msub", "msup", "msubsup", "munder", "munderover"))
 _PARTS = {"mfrac": 2, "msub": 2, "msup": 2, "mover": 2, "munder": 2, "msubsup": 3, "munderover": 3}
@@ -53,10 +54,15 @@ def inline(latex: str) -> Markup:
 
 def prose(text: str) -> Markup:
     """Our sentences, their formulas as MathML; what a formula is, `tex.prose` decides."""
-    parts = _DOLLAR.split(tex.prose(text))
-    return Markup("").join(
-        inline(part) if k % 2 else Markup.escape(tex.unescape(part)) for k, part in enumerate(parts)
-    )
+    first, *rest = _DOLLAR.split(tex.prose(text))
+    pieces = [Markup.escape(tex.unescape(first))]
+    for formula, after in zip(rest[::2], rest[1::2], strict=True):
+        plain = tex.unescape(after)
+        words = plain.lstrip(",.;:!?)")
+        mark = plain[: len(plain) - len(words)]
+        whole = Markup('<span class="whole">{}{}</span>') if mark else Markup("{}{}")
+        pieces += [whole.format(inline(formula), mark), Markup.escape(words)]
+    return Markup("").join(pieces)
 
 
 def _box(latex: str, kind: str) -> Markup:
@@ -82,6 +88,7 @@ def _root(latex: str, kind: str) -> ET.Element:
     for element in list(root.iter()):
         _space(element)
         _fence(element)
+        _prime(element)
         if element.tag in _SCRIPTS:
             _script(element, kind)
     return root
@@ -137,6 +144,14 @@ def _fence(row: ET.Element) -> None:
             end.set("stretchy", "false")
 
 
+def _prime(element: ET.Element) -> None:
+    """A prime is small and high by itself; as a script it would shrink twice."""
+    if element.tag == "msup" and set(element[1].text or "-") <= _PRIMES:
+        element[1].tag = "mo"
+        element[1].attrib.update(lspace="0", rspace="0")
+        element.tag = "mrow"
+
+
 def _script(element: ET.Element, kind: str) -> None:
     """Limits below their operator, and relations close to their sides in small print."""
     if element.tag == "msub" and element[0].text in _LIMITS and kind == "block":
@@ -165,6 +180,8 @@ def _space(parent: ET.Element) -> None:
         return
     children = list(parent)
     for before, after in pairwise(children):
+        if before.tag == "mo" and before.text in _RELATIONS and after.text in ("-", "−", "+"):
+            after.attrib.update(form="prefix", lspace="0", rspace="0")
         named = _is_named(before) and after.tag not in ("mo", "mspace")
         if named or (_is_named(after) and before.tag not in ("mo", "mspace", "mtext")):
             parent.insert(list(parent).index(after), ET.Element("mspace", width="0.167em"))
