@@ -15,6 +15,7 @@ from rodproof.codegen import scene as toml
 from rodproof.codegen.kernel import Kernel, validate
 from rodproof.codegen.lower import lower
 from rodproof.codegen.passes.choose import case, stabilise
+from rodproof.codegen.passes.drop_guards import drop_guards
 from rodproof.codegen.passes.name import name
 from rodproof.codegen.passes.order import order
 from rodproof.codegen.passes.share import share
@@ -44,6 +45,7 @@ def passes(scene: Scene) -> tuple[Pass, ...]:
     return (
         lambda kernel: stabilise(kernel, chosen),
         lambda kernel: specialise(kernel, scene),
+        lambda kernel: drop_guards(kernel, scene),
         share,
         drop_dead,
         order,

@@ -99,6 +99,7 @@ class Kernel:
     """One public function: inputs, assignments in order, outputs, gauge, limit, dyad.
 
     ``constants`` are assignments in the constants alone, evaluated once per set of constants.
+    ``dropped`` names the guards that the scene's ranges made needless.
     """
 
     name: str
@@ -109,6 +110,7 @@ class Kernel:
     limit: Limit | None = None
     constants: tuple[Assignment, ...] = ()
     dyad: Dyad | None = None
+    dropped: tuple[str, ...] = ()
 
     def expressions(self) -> Iterator[sp.Expr]:
         """Every expression evaluated per point."""

@@ -17,7 +17,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from rodproof.derivations.symbols import CONSTANTS, LOADS
+from rodproof.derivations.symbols import CONSTANTS, LOADS, STRAINS
 from rodproof.derivations.theory import constrained
 
 FUNCTIONS_OF_LOADS = ("strains", "complementary_energy", "compliance")
@@ -32,6 +32,7 @@ FUNCTIONS = (
 )
 CONSTANT_NAMES = ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p")
 LOAD_NAMES = tuple(s.name for s in LOADS)
+STRAIN_NAMES = tuple(s.name for s in STRAINS)
 #: A modulus of the linear rod, in the user's unit of force, by its name: gamma times the second.
 MODULI = {
     "bending": "alpha",
@@ -49,7 +50,10 @@ class SceneError(ValueError):
 
 @dataclass(frozen=True)
 class Key:
-    """A key of a scene file: its kind (text, choice, names or numbers) and what it may say."""
+    """A key of a scene file: its kind and what it may say.
+
+    Kinds are text, choice, names, numbers and ranges.
+    """
 
     kind: str
     doc: str
@@ -122,6 +126,15 @@ class Scene:
             ("full", "packed"),
         ),
     )
+    ranges: Mapping[str, tuple[float, float]] = field(
+        default_factory=dict,
+        metadata=_key(
+            "ranges",
+            "Smallest and largest value of constants, which are checked, and of loads and strains, "
+            "which the caller promises; guards go where the ranges prove them needless.",
+            (*CONSTANT_NAMES, *LOAD_NAMES, *STRAIN_NAMES),
+        ),
+    )
     layout: str = field(
         default="first",
         metadata=_key("choice", "Components on the first or the last axes.", ("first", "last")),
@@ -154,6 +167,7 @@ class Scene:
             self._check(name, key)
         self._check_loads()
         self._check_constants()
+        self._check_ranges()
 
     def _check(self, name: str, key: Key) -> None:
         value = getattr(self, name)
@@ -210,6 +224,18 @@ class Scene:
         if self.moduli and missing:
             raise SceneError(f"scene {self.name}: moduli lacks {', '.join(missing)}")
 
+    def _check_ranges(self) -> None:
+        for name, (low, high) in self.ranges.items():
+            if not (math.isfinite(low) and math.isfinite(high) and low <= high):
+                rule = "must be two finite numbers in order"
+                raise SceneError(f"scene {self.name}: range {name} {rule}, not {low}, {high}")
+            if name in CONSTANT_NAMES and name != "iota" and low <= 0:
+                raise SceneError(f"scene {self.name}: range {name} must be positive, not {low}")
+            if name in self.fixed:
+                raise SceneError(f"scene {self.name}: {name} is fixed and has a range")
+            if not low <= self.defaults.get(name, low) <= high:
+                raise SceneError(f"scene {self.name}: the default of {name} is not in its range")
+
 
 def keys() -> dict[str, Key]:
     """The keys of a scene file, in order."""
@@ -262,6 +288,15 @@ def _value(what: str, key: Key, value: Any) -> Any:
         if not isinstance(value, list) or not all(isinstance(entry, str) for entry in value):
             raise SceneError(f"{what} must be a list of strings, not {value!r}")
         return tuple(value)
+    if key.kind == "ranges":
+        pairs = value.values() if isinstance(value, dict) else [None]
+        if not all(isinstance(pair, list) and len(pair) == 2 for pair in pairs):
+            raise SceneError(f"{what} must be a table of pairs of numbers, not {value!r}")
+        ends = [
+            _value(what, Key("numbers", ""), {n: pair[k] for n, pair in value.items()})
+            for k in (0, 1)
+        ]
+        return {name: (ends[0][name], ends[1][name]) for name in value}
     if key.kind == "numbers":
         entries = value.values() if isinstance(value, dict) else [None]
         if not all(isinstance(e, (int, float)) and not isinstance(e, bool) for e in entries):

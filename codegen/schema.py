@@ -35,6 +35,10 @@ def _property(key: Key) -> dict[str, Any]:
     if key.kind == "names":
         entries = {"enum": list(key.allowed)}
         return said | {"type": "array", "items": entries, "uniqueItems": True}
+    if key.kind == "ranges":
+        pair = {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}
+        pairs = dict.fromkeys(key.allowed, pair)
+        return said | {"type": "object", "additionalProperties": False, "properties": pairs}
     if key.kind == "numbers":
         numbers = {name: {"type": "number"} for name in key.allowed}
         return said | {"type": "object", "additionalProperties": False, "properties": numbers}

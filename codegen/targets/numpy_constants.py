@@ -61,6 +61,11 @@ def print_constants(scene: Scene, kernels: tuple[Kernel, ...]) -> str:
         derived_fields="".join(f"\n    {name}: float = {hidden}" for name in derived),
         names=_tuple_text([f'"{name}"' for name in used]),
         value_check=template.SIGNED_CHECK if signed else template.POSITIVE_CHECK,
+        ranges="".join(
+            template.RANGE_CHECK.substitute(name=name, low=repr(low), high=repr(high))
+            for name, (low, high) in scene.ranges.items()
+            if name in used
+        ),
         exact=_exact(exact),
         coupling=checks,
         derived=template.DERIVED.substitute(values="\n".join(values)) if derived else "",

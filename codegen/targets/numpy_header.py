@@ -25,12 +25,13 @@ def header(scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str
         "",
         f"Scene {scene.name}, made by: rodproof generate {scene.name}",
         *(line for said in scope(scene) for line in ("", *textwrap.wrap(said, WIDTH))),
+        *(line for said in _ranges(scene, kernels) for line in ("", *textwrap.wrap(said, WIDTH))),
         "",
         *textwrap.wrap(
             f"Statements it rests on ({noted}): {cited}.", WIDTH, break_on_hyphens=False
         ),
         "",
-        f"Domain: {_domain(scene)}.",
+        f"Domain: {_domain(scene, kernels)}.",
         "",
         "Operations a point: arithmetic, transcendental, energy shares, temporaries",
     ]
@@ -46,13 +47,29 @@ def _statement(statement: str, verdicts: Mapping[str, str]) -> str:
     return statement + "".join(f" {note}" for note in notes if note)
 
 
-def _domain(scene: Scene) -> str:
+def _ranges(scene: Scene, kernels: tuple[Kernel, ...]) -> list[str]:
+    """The ranges, and the guards that they made needless."""
+    if not scene.ranges:
+        return []
+    ranges = ", ".join(f"{n} in [{a:g}, {b:g}]" for n, (a, b) in scene.ranges.items())
+    said = [f"Ranges: {ranges}. Constants are checked; loads and strains are the caller's promise."]
+    every = dict.fromkeys(guard for kernel in kernels for guard in kernel.dropped)
+    users = {guard: [k.name for k in kernels if guard in k.dropped] for guard in every}
+    gone = "; ".join(f"{guard} ({', '.join(names)})" for guard, names in users.items())
+    if gone:
+        said.append(f"Guards proved needless by interval arithmetic over the ranges: {gone}.")
+    return said
+
+
+def _domain(scene: Scene, kernels: tuple[Kernel, ...]) -> str:
     parts = []
     if any(function in FUNCTIONS_OF_LOADS for function in scene.functions):
         parts.append("loads with finite Q*^(1/2)")
     if any(function not in FUNCTIONS_OF_LOADS for function in scene.functions):
         answer = "an error" if scene.at_limit == "raise" else "nan"
-        parts.append(f"strains with Q < 1, else {answer}")
+        unguarded = any("the strain limit" in kernel.dropped for kernel in kernels)
+        promised = "as the ranges promise" if unguarded else f"else {answer}"
+        parts.append(f"strains with Q < 1, {promised}")
     return "; ".join(parts)
 
 

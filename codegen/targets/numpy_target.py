@@ -228,7 +228,7 @@ def _body(kernel: Kernel, steps: dict[str, Step], printer: Printer, text: Functi
     vector = kernel.dyad.vector if kernel.dyad else ()
     spelled = {name: f"{name[0]}[{i}]" for i, name in enumerate(vector)}
     called: set[str] = set()
-    like = kernel.limit.quantity if kernel.limit else "y"  # an array with the block's shape
+    like = "y" if kernel.inputs[0] in LOAD_NAMES else "q"  # an array with the block's shape
     tiny_at = next((a.name for a in kernel.body if not a.step and _uses(a.expr, "tiny")), "")
     for a in kernel.body:
         if a.name == tiny_at:

@@ -47,7 +47,7 @@ $fields$derived_fields
             value = float(getattr(self, name))
 $value_check
             object.__setattr__(self, name, value)
-$exact$coupling$derived''')
+$ranges$exact$coupling$derived''')
 
 SIGNED_CHECK = """\
             if not math.isfinite(value) or (value <= 0 and name != "iota"):
@@ -57,6 +57,11 @@ SIGNED_CHECK = """\
 POSITIVE_CHECK = """\
             if not 0 < value < math.inf:
                 raise ValueError(f"Constants: {name} must be positive and finite, not {value}")"""
+
+RANGE_CHECK = Template("""\
+        if not $low <= self.$name <= $high:
+            raise ValueError(f"Constants: $name must lie in [$low, $high], not {self.$name}")
+""")
 
 COUPLING_CHECK = """\
         if not beta**2 * eta**2 - iota**2 > 0:
