@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import sympy as sp
 
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
-from rodproof.derivations.notation import Chain, Every, Iff, equal, instances
+from rodproof.derivations.notation import (
+    Chain,
+    Every,
+    Iff,
+    Implies,
+    LimitOf,
+    equal,
+    instances,
+)
 from rodproof.derivations.proof import couple as domains
 from rodproof.derivations.proof.couple import Branch, OfState, on_all
 from rodproof.derivations.proof.couple_checks import TWISTED
 from rodproof.derivations.proof.couple_route import c, length, r_s
-from rodproof.derivations.proof.meaning import IllTyped, Meaning
+from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
 from rodproof.derivations.proof.prover import DIGITS, ROUTE_POINTS, Identity, claims
-from rodproof.derivations.records import Confirmation, Decision
+from rodproof.derivations.proof.thrust import numeric_strains
+from rodproof.derivations.records import Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import STRAINS, chiral_gap, iota
 from rodproof.derivations.theory import couple as theory
 from rodproof.derivations.theory import euler
@@ -119,6 +129,7 @@ class OnTwisted:
         parts = list(printed.args) if isinstance(printed, Every) else [printed]
         found = [
             self._sign_claim(part, meanings) if isinstance(part, Iff)
+            else self._vanishes_only_with(part, meanings) if isinstance(part, Implies)
             else on_all([Identity(m) for m in meanings], _integrated(part, meanings), explain)
             for part in parts
         ]  # fmt: skip
@@ -141,6 +152,26 @@ class OnTwisted:
                 return _REJECTED
         return Decision(True, True, "ratio of the two sides positive; both zero without couple")
 
+    @staticmethod
+    def _vanishes_only_with(printed: Implies, meanings: list[Meaning]) -> Decision:
+        """`q != 0 implies x != 0`: x/q has a sign, and q vanishes with iota and with M_3, as x."""
+        (claim,) = instances(printed)
+        if not all(isinstance(part, sp.Ne) and part.args[1] == 0 for part in claim.args):
+            return _REJECTED
+        given, changed = (part.args[0] for part in claim.args)
+        for zero, other in ((euler.M3, iota), (iota, euler.M3)):
+            if given.subs(zero, 0) != 0:
+                where = ((str(zero), "0"), (str(other), "1"))
+                found = Counterexample(where, f"{changed} = 0", f"{changed} != 0")
+                return Decision(False, True, "counterexample", found)
+        try:
+            ratios = [m.interpret(changed) / m.interpret(given) for m in meanings]
+            signs = [Field(m.positive).sign(r) for m, r in zip(meanings, ratios, strict=True)]
+        except OutOfReach:
+            return _REJECTED
+        same = set(signs) in ({1}, {-1})
+        return Decision(True, True, "a ratio of known sign") if same else _REJECTED
+
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
         meanings = [b.meaning for b in TWISTED]
         parts = list(printed.args) if isinstance(printed, Every) else [printed]
@@ -159,19 +190,43 @@ def _integrated(printed: sp.Basic, meanings: list[Meaning]) -> sp.Basic:
     return printed.xreplace(done)
 
 
-def _in_the_couple(state: theory.State, angle: Mapping[sp.Expr, sp.Expr]) -> Identity:
+def _route_far(couple: sp.Symbol) -> Callable[[Point, Any], Values]:
+    """The strains under couples of 10^400 and -10^400, M_2 = 0 and psi = psi(0)."""
+
+    def route(point: Point, ctx: Any) -> Values:
+        turn = ctx.mpf(int(point[psi_0].p)) / int(point[psi_0].q)
+        found: dict[sp.Basic, Any] = {}
+        for sign, target in ((1, sp.oo), (-1, -sp.oo)):
+            size = sign * ctx.mpf(10) ** 400
+            bent = [size * ctx.cos(turn), -size * ctx.sin(turn), 0]
+            load = [0, 0, size] if couple == euler.M3 else bent
+            u1, u2, u3, _, _, dilatation = numeric_strains(point, [*load, 0, 0, 0], ctx)
+            far = dict(zip(STRAINS[:3], (u1, u2, u3), strict=True))
+            far |= {STRAINS[5] - 1: dilatation, _FLEXURE: ctx.hypot(u1, u2)}
+            found |= {LimitOf(strain, couple, target): value for strain, value in far.items()}
+        return found
+
+    return route
+
+
+_FLEXURE = sp.sqrt(STRAINS[0] ** 2 + STRAINS[1] ** 2)
+
+
+def _in_the_couple(
+    state: theory.State, angle: Mapping[sp.Expr, sp.Expr], couple: sp.Symbol
+) -> Identity:
     """Statements with a limit in the couple, which is then the variable itself."""
     strains = [e.xreplace(dict(angle)).xreplace({psi: psi_0}) for e in state.strains]
     return Identity(Meaning(
         name="couples of any size", free=(), sample=domains.sample, simple=domains.small_circles,
         components=dict(zip(STRAINS, strains, strict=True)),
-        positive=(chiral_gap,), route=lambda point, ctx: {},
-        route_name="the law at a couple of 10^400",
+        positive=(chiral_gap,), route=_route_far(couple),
+        route_name="the law with K inverted numerically, at couples of 10^400 and -10^400",
     ))  # fmt: skip
 
 
-TWIST_LIMITS = _in_the_couple(theory.twisted(), {})
-CIRCLE_LIMITS = _in_the_couple(theory.helix(), domains.RIGHT_ANGLE)
+TWIST_LIMITS = _in_the_couple(theory.twisted(), {}, euler.M3)
+CIRCLE_LIMITS = _in_the_couple(theory.helix(), domains.RIGHT_ANGLE, euler.M1)
 
 
 @dataclass(frozen=True, eq=False)

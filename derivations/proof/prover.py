@@ -63,6 +63,8 @@ class Identity:
                 for left, relation, right in _links(claim):
                     if relation == "=":
                         worst = max(worst, _residual(evaluate(left), evaluate(right)))
+                    elif not _agrees((left, relation, right), evaluate):
+                        worst = float("inf")
         return Confirmation(worst, ROUTE_POINTS, DIGITS, self.meaning.route_name)
 
 

@@ -278,7 +278,8 @@ def route_on_branch(point: Point, ctx: Any) -> Values:
     found = dict(_state_numbers(point, ctx, thrust, (ctx.mpf(0), polar, psi_of_s)))
     return found | {x_N: ctx.cos(polar), theta: polar, theta_hat: polar, theta_Nk: polar,
                     x_Nk: ctx.cos(polar), fN(sp.cos(theta)): found[v3] - 1,
-                    fN(x_N): found[v3] - 1}  # fmt: skip
+                    fN(x_N): found[v3] - 1,
+                    N_thresh: numeric_thrust(point, ctx.mpf(10) ** -25, ctx)}  # fmt: skip
 
 
 def _route_f(point: Point, ctx: Any) -> Values:

@@ -6,6 +6,7 @@ import pytest
 import sympy as sp
 
 from rodproof.derivations import ledger
+from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
 from rodproof.derivations.notation import (
@@ -19,6 +20,7 @@ from rodproof.derivations.notation import (
     Wstar,
     chain,
     equal,
+    instances,
     m,
     n,
     positive,
@@ -164,3 +166,30 @@ def test_m1_zero_cases_are_an_implication() -> None:
     tree, check = _statement("couple-M1-zero-cases")
     assert check.decide(Every(*tree.args), explain=False).holds is not True
     assert check.decide(_either(tree, 1), explain=False).holds is not True
+
+
+# -- second routes -----------------------------------------------------------------------------
+
+
+def test_a_false_inequality_shows_on_the_second_route() -> None:
+    found = Identity(ON_LOADS).confirm(chain(Qstar(m, n), "<", 0))
+    assert found is not None and found.residual > 1
+
+
+@pytest.mark.parametrize("name", ["twist-limit-u3", "circle-limit-curvature", "n-thresh"])
+def test_the_second_route_does_not_use_the_derived_formula(name: str) -> None:
+    """It has its own number for the limit, or the threshold, in the statement."""
+    tree, check = _statement(name)
+    good = check.confirm(tree)
+    assert good is not None and good.residual < 1e-30
+    meaning = getattr(getattr(check, "check", check), "meaning", None) or check.states[0]
+    values = meaning.route(meaning.sample(0), context(65))
+    first = next(iter(tree.args)) if isinstance(tree, Every) else tree
+    left = next(iter(instances(first)[0].sides))
+    assert any(key in values for key in sp.preorder_traversal(left))
+
+
+def test_no_couple_changes_no_length() -> None:
+    (found,) = ledger.find(("twist-poynting",))
+    assert found.check.decide(found.printed).counterexample is not None
+    assert found.read_as is not None and found.check.decide(found.read_as).holds
