@@ -241,6 +241,10 @@ def _directors() -> tuple[Statement, ...]:
 
 def _length() -> tuple[Statement, ...]:
     elongation = v[3] - 1
+    elongates = (
+        Iff(positive(-iota * M[3]), positive(v[3] - 1)),
+        Iff(positive(iota * M[3]), positive(1 - v[3])),
+    )
     return (
         Statement(
             id="twist-length",
@@ -279,13 +283,16 @@ def _length() -> tuple[Statement, ...]:
             label="-",
             claim="A couple about d_3 changes the length of a chiral rod; it elongates the rod "
             "exactly if -iota M_3 > 0, and shortens it if iota M_3 > 0.",
-            latex=r"-\iota M_3 > 0 \iff v_3 - 1 > 0, \quad \iota M_3 > 0 \iff 1 - v_3 > 0",
-            printed=Every(
-                Iff(positive(-iota * M[3]), positive(v[3] - 1)),
-                Iff(positive(iota * M[3]), positive(1 - v[3])),
-            ),
-            check=states.OnTwisted(),
-            note="For configurations with v_3 > 0, as the theory requires throughout.",
+            latex=r"\iota \neq 0 \implies |\boldsymbol r'| - 1 \neq 0, \quad "
+            r"-\iota M_3 > 0 \iff v_3 - 1 > 0, \quad \iota M_3 > 0 \iff 1 - v_3 > 0",
+            printed=Every(Implies(sp.Ne(iota, 0), sp.Ne(length - 1, 0)), *elongates),
+            read_as=Every(Implies(sp.Ne(iota * M[3], 0), sp.Ne(length - 1, 0)), *elongates),
+            check=states.OnTwisted(stretched=True),
+            reading="M_3 is not 0, and v_3 > 0 (required of all configurations in Section 2.1, and "
+            "not ensured by the law, see twist-length). For M_3 = 0 nothing changes whatever iota; "
+            "with v_3 = -1, which the law reaches under a finite couple if |iota| > 2 eta "
+            "(beta^2 eta^2 - iota^2)^{1/2}, |r'| is 1 again. The couple that elongates, "
+            "-iota M_3 > 0, needs neither.",
         ),
     )
 
