@@ -131,5 +131,3 @@ def _tangent() -> tuple[Statement, ...]:
             "is positive as soon as v is not zero; only the second consequence needs v_3.",
         ),
     )  # fmt: skip
-
-

@@ -59,14 +59,19 @@ def _resultants() -> tuple[Statement, ...]:
 def _local() -> tuple[Statement, ...]:
     return (
         Statement(
-            id="force-balance", section=SECTION, label="eq:neq",
+            id="force-balance",
+            section=SECTION,
+            label="eq:neq",
             claim="Local balance of forces.",
             latex=r"\boldsymbol n'(s) + \boldsymbol f(s) = \boldsymbol 0",
-            printed=equal(Prime(n_vector) + f_vector, 0), check=rules.LOCAL,
+            printed=equal(Prime(n_vector) + f_vector, 0),
+            check=rules.LOCAL,
             note="Equivalent to the balance of every segment where f is continuous.",
         ),
         Statement(
-            id="moment-balance", section=SECTION, label="eq:meq",
+            id="moment-balance",
+            section=SECTION,
+            label="eq:meq",
             claim="Local balance of couples.",
             latex=r"\boldsymbol m'(s) + \boldsymbol r'(s) \times \boldsymbol n(s)"
             r" + \boldsymbol l(s) = \boldsymbol 0",

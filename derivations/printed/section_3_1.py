@@ -44,9 +44,7 @@ _load_factor = gamma * (1 - Q(u, v) ** (p / 2)) ** (-1 / p)
 _D_TEX = r"\beta^2 \eta^2 - \iota^2"
 _S_TEX = r"\Bigl(\gamma^p + Q^*(\mathsf{m}, \mathsf{n})^{p/2}\Bigr)^{-1/p}"
 _L_TEX = r"\gamma\Bigl(1 - Q(\mathsf{u}, \mathsf{v})^{p/2}\Bigr)^{-1/p}"
-_GRADIENT_TEX = (
-    r"\begin{bmatrix} %s \end{bmatrix} = \frac{\partial %s}{\partial \mathsf{%s}}"
-)
+_GRADIENT_TEX = r"\begin{bmatrix} %s \end{bmatrix} = \frac{\partial %s}{\partial \mathsf{%s}}"
 
 
 def statements() -> tuple[Statement, ...]:
@@ -73,16 +71,24 @@ def _columns() -> tuple[Statement, ...]:
 
     return (
         Statement(
-            id="strain-columns", section=SECTION, label="-", introduces=True,
+            id="strain-columns",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="Columns of the components of the strains u and v in the directors.",
             latex=r"\mathsf{u} = (u_1, u_2, u_3)^T, \quad \mathsf{v} = (v_1, v_2, v_3)^T",
-            printed=columns(("u", u), ("v", v)), check=Identity(rules.COLUMNS),
+            printed=columns(("u", u), ("v", v)),
+            check=Identity(rules.COLUMNS),
         ),
         Statement(
-            id="stress-columns", section=SECTION, label="-", introduces=True,
+            id="stress-columns",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="Columns of the components of the contact couple and force in the directors.",
             latex=r"\mathsf{m} = (m_1, m_2, m_3)^T, \quad \mathsf{n} = (n_1, n_2, n_3)^T",
-            printed=columns(("m", m), ("n", n)), check=Identity(rules.COLUMNS),
+            printed=columns(("m", m), ("n", n)),
+            check=Identity(rules.COLUMNS),
         ),
     )
 
@@ -93,7 +99,10 @@ def _three_dimensional_relation() -> tuple[Statement, ...]:
     factor = (a ** (-p) + (b * rules.norm_T) ** p) ** (-1 / p)
     return (
         Statement(
-            id="tb-relation", section=SECTION, label="eq:TB", introduces=True,
+            id="tb-relation",
+            section=SECTION,
+            label="eq:TB",
+            introduces=True,
             claim="Three-dimensional strain-limiting relation that inspires the rod's law.",
             latex=r"\boldsymbol e = \Bigl(a^{-p} + |b \boldsymbol T|^p\Bigr)^{-1/p} \boldsymbol T",
             printed=Every(*(equal(e[i, j], factor * T[i, j]) for i, j in pairs)),
@@ -101,15 +110,22 @@ def _three_dimensional_relation() -> tuple[Statement, ...]:
             note="Its scalar law is the rod's with gamma = 1/a and y = b|T|, so |e| < 1/b.",
         ),
         Statement(
-            id="tb-hypotheses", section=SECTION, label="-", introduces=True,
+            id="tb-hypotheses",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="Range of the three constants of the three-dimensional relation.",
             latex="a, b, p > 0",
-            printed=Every(positive(a), positive(b), positive(p)), check=rules.TB_RANGES,
+            printed=Every(positive(a), positive(b), positive(p)),
+            check=rules.TB_RANGES,
             note="For every stress T to belong to a deformation, e = (I - B^{-1})/2 also needs "
             "eigenvalues below 1/2; under uniaxial tension that is b >= 2.",
         ),
         Statement(
-            id="tb-almansi", section=SECTION, label="-", introduces=True,
+            id="tb-almansi",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="Definition of the Almansi-Hamel strain through the left Cauchy-Green tensor.",
             latex=r"\boldsymbol e = \tfrac12(\boldsymbol I - \boldsymbol B^{-1})",
             printed=Every(
@@ -119,7 +135,10 @@ def _three_dimensional_relation() -> tuple[Statement, ...]:
             note="It measures dx . e dx = (|dx|^2 - |dX|^2)/2, which is how it is derived here.",
         ),
         Statement(
-            id="tb-norm", section=SECTION, label="-", introduces=True,
+            id="tb-norm",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="Norm of the Cauchy stress.",
             latex=r"|\boldsymbol T|^2 = \operatorname{tr}(\boldsymbol T^2)",
             printed=equal(rules.norm_T**2, sp.Add(*(T[i, j] * T[j, i] for i, j in pairs))),
@@ -165,7 +184,10 @@ def _constants_and_forms() -> tuple[Statement, ...]:
 
     return (
         Statement(
-            id="constants-positive", section=SECTION, label="-", introduces=True,
+            id="constants-positive",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="Ranges of the seven constants of the rod.",
             latex=r"p, \alpha, \beta, \gamma, \zeta, \eta \in (0, \infty), \quad "
             r"\iota \in \mathbb R",
@@ -173,36 +195,49 @@ def _constants_and_forms() -> tuple[Statement, ...]:
             check=rules.CONSTANT_RANGES,
         ),
         Statement(
-            id="constants-hypothesis", section=SECTION, label="-",
+            id="constants-hypothesis",
+            section=SECTION,
+            label="-",
             claim="Inequality on the constants that makes both quadratic forms positive definite.",
             latex=r"\alpha^2 \beta^2 - \iota^2 > 0",
             printed=positive(alpha**2 * beta**2 - iota**2),
-            check=rules.COUPLING, correction=positive(_D),
+            check=rules.COUPLING,
+            correction=positive(_D),
             note="The printed inequality is not even dimensionally consistent: alpha^2 beta^2 "
             "scales like length^4 and iota^2 like length^2. It neither implies nor follows from "
             "positive definiteness.",
         ),
         Statement(
-            id="q-forms-positive-definite", section=SECTION, label="-",
+            id="q-forms-positive-definite",
+            section=SECTION,
+            label="-",
             claim="Under the printed inequality both quadratic forms are positive definite.",
             latex=r"\begin{aligned} &\alpha^2\beta^2 - \iota^2 > 0 "
             r"\implies \text{positive definite:}\\"
             rf"&Q = {q_tex}\\ &Q^* = {qstar_tex}\end{{aligned}}",
             printed=definite(alpha**2 * beta**2 - iota**2, v),
-            check=rules.FORMS, correction=definite(_D, n),
+            check=rules.FORMS,
+            correction=definite(_D, n),
         ),
         Statement(
-            id="q-form", section=SECTION, label="eq:quadraticform", introduces=True,
+            id="q-form",
+            section=SECTION,
+            label="eq:quadraticform",
+            introduces=True,
             claim="Quadratic form Q in the strains.",
             latex=rf"Q(\mathsf u, \mathsf v) = {q_tex}",
-            printed=equal(Q(u, v), _form_of_strains()), check=Identity(ON_STRAINS),
+            printed=equal(Q(u, v), _form_of_strains()),
+            check=Identity(ON_STRAINS),
             note="The doubled plus sign is harmless.",
         ),
         Statement(
-            id="qstar-form", section=SECTION, label="-",
+            id="qstar-form",
+            section=SECTION,
+            label="-",
             claim="Quadratic form Q* in the contact couple and contact force.",
             latex=rf"Q^*(\mathsf m, \mathsf n) = {qstar_tex}",
-            printed=equal(Qstar(m, n), _form_of_loads(v)), check=Identity(ON_LOADS),
+            printed=equal(Qstar(m, n), _form_of_loads(v)),
+            check=Identity(ON_LOADS),
             correction=equal(Qstar(m, n), _form_of_loads(n)),
             note="Shear strains stand where shear forces belong.",
         ),
@@ -215,34 +250,50 @@ def _strains_from_loads() -> tuple[Statement, ...]:
     dilatation = (-iota * m[3] + beta**2 * n[3]) / _D
     return (
         Statement(
-            id="const-u-mu", section=SECTION, label="eq:uconst",
+            id="const-u-mu",
+            section=SECTION,
+            label="eq:uconst",
             claim="Flexural strains as functions of contact couple and force.",
             latex=rf"u_\mu = {_S_TEX} \frac{{1}}{{\alpha^2}} m_\mu",
-            printed=equal(u[mu], _strain_factor * m[mu] / alpha**2), check=law,
+            printed=equal(u[mu], _strain_factor * m[mu] / alpha**2),
+            check=law,
         ),
         Statement(
-            id="const-u-3", section=SECTION, label="eq:u3const",
+            id="const-u-3",
+            section=SECTION,
+            label="eq:u3const",
             claim="Twist as a function of contact couple and force.",
             latex=rf"u_3 = {_S_TEX} \frac{{1}}{{{_D_TEX}}}(\eta^2 m_3 - \iota n_3)",
-            printed=equal(u[3], _strain_factor * twist), check=law,
+            printed=equal(u[3], _strain_factor * twist),
+            check=law,
         ),
         Statement(
-            id="const-v-mu", section=SECTION, label="eq:vconst",
+            id="const-v-mu",
+            section=SECTION,
+            label="eq:vconst",
             claim="Shear strains as functions of contact couple and force.",
             latex=rf"v_\mu = {_S_TEX} \frac{{1}}{{\zeta^2}} n_\mu",
-            printed=equal(v[mu], _strain_factor * n[mu] / zeta**2), check=law,
+            printed=equal(v[mu], _strain_factor * n[mu] / zeta**2),
+            check=law,
         ),
         Statement(
-            id="const-v-3", section=SECTION, label="eq:v3const",
+            id="const-v-3",
+            section=SECTION,
+            label="eq:v3const",
             claim="Dilatation strain minus one as a function of contact couple and force.",
             latex=rf"v_3 - 1 = {_S_TEX} \frac{{1}}{{{_D_TEX}}}(-\iota m_3 + \beta^2 n_3)",
-            printed=equal(v[3] - 1, _strain_factor * dilatation), check=law,
+            printed=equal(v[3] - 1, _strain_factor * dilatation),
+            check=law,
         ),
         Statement(
-            id="greek-index-range", section=SECTION, label="-", introduces=True,
+            id="greek-index-range",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="Greek letters used as indices range over 1 and 2.",
             latex=r"\mu, \nu \in \{1, 2\}",
-            printed=sp.Tuple(1, 2), check=rules.GREEK_RANGE,
+            printed=sp.Tuple(1, 2),
+            check=rules.GREEK_RANGE,
         ),
     )
 
@@ -251,39 +302,52 @@ def _limits() -> tuple[Statement, ...]:
     root = 1 / sp.sqrt(_D)
     return (
         Statement(
-            id="strain-limit", section=SECTION, label="eq:strainlimiting",
+            id="strain-limit",
+            section=SECTION,
+            label="eq:strainlimiting",
             claim="The strains given by the constitutive relations satisfy Q < 1.",
             latex=r"Q(\mathsf u, \mathsf v) < 1",
-            printed=chain(Q(u, v), "<", 1), check=rules.STRAIN_LIMIT,
+            printed=chain(Q(u, v), "<", 1),
+            check=rules.STRAIN_LIMIT,
             note="1 is the supremum, approached as the load grows without bound.",
         ),
         Statement(
-            id="bound-u-perp", section=SECTION, label="eq:u1u2bd",
+            id="bound-u-perp",
+            section=SECTION,
+            label="eq:u1u2bd",
             claim="Bound on the flexural strains.",
             latex=r"(u_1^2 + u_2^2)^{1/2} < \frac1\alpha",
             printed=chain(sp.sqrt(u[1] ** 2 + u[2] ** 2), "<", 1 / alpha),
             check=rules.flexure_bound(),
         ),
         Statement(
-            id="bound-u3", section=SECTION, label="eq:u3bd",
+            id="bound-u3",
+            section=SECTION,
+            label="eq:u3bd",
             claim="Bound on the twist.",
             latex=rf"|u_3| < \eta({_D_TEX})^{{-1/2}}",
-            printed=chain(sp.Abs(u[3]), "<", eta * root), check=rules.twist_bound(),
+            printed=chain(sp.Abs(u[3]), "<", eta * root),
+            check=rules.twist_bound(),
             note="Sharp, and approached only by a combined load: the extremal strain has "
             "v_3 - 1 = -iota/(eta (beta^2 eta^2 - iota^2)^{1/2}).",
         ),
         Statement(
-            id="bound-v-perp", section=SECTION, label="eq:v1v2bd",
+            id="bound-v-perp",
+            section=SECTION,
+            label="eq:v1v2bd",
             claim="Bound on the shear strains.",
             latex=r"(v_1^2 + v_2^2)^{1/2} < \frac1\zeta",
             printed=chain(sp.sqrt(v[1] ** 2 + v[2] ** 2), "<", 1 / zeta),
             check=rules.shear_bound(),
         ),
         Statement(
-            id="bound-v3", section=SECTION, label="eq:v3bd",
+            id="bound-v3",
+            section=SECTION,
+            label="eq:v3bd",
             claim="Bound on the dilatation strain minus one.",
             latex=rf"|v_3 - 1| < \beta({_D_TEX})^{{-1/2}}",
-            printed=chain(sp.Abs(v[3] - 1), "<", beta * root), check=rules.dilatation_bound(),
+            printed=chain(sp.Abs(v[3] - 1), "<", beta * root),
+            check=rules.dilatation_bound(),
         ),
     )
 
@@ -334,17 +398,25 @@ def _loads_from_strains() -> tuple[Statement, ...]:
     )  # fmt: skip
     relations = tuple(
         Statement(
-            id=name, section=SECTION, label=label, claim=claim, latex=latex, check=law,
+            id=name,
+            section=SECTION,
+            label=label,
+            claim=claim,
+            latex=latex,
+            check=law,
             printed=equal(load, Partial(W(u, v), strain), _load_factor * row),
         )
         for name, label, claim, latex, strain, load, row in rows
     )
     x, y = rules.x, rules.y
     inverse = Statement(
-        id="inversion-claim", section=SECTION, label="-",
+        id="inversion-claim",
+        section=SECTION,
+        label="-",
         claim="The constitutive relations can be inverted: loads as functions of the strains.",
         latex=r"y = \gamma x (1 - x^p)^{-1/p}, \quad x = Q^{1/2},\; y = {Q^*}^{1/2}",
-        printed=equal(y, gamma * x * (1 - x**p) ** (-1 / p)), check=rules.INVERSION,
+        printed=equal(y, gamma * x * (1 - x**p) ** (-1 / p)),
+        check=rules.INVERSION,
         note="The relation between the radii is a bijection of [0, oo) onto [0, 1), and the "
         "direction is carried by K and its inverse, zero load and zero strain included.",
     )
@@ -352,17 +424,23 @@ def _loads_from_strains() -> tuple[Statement, ...]:
         inverse,
         *relations,
         Statement(
-            id="inverse-domain", section=SECTION, label="-",
+            id="inverse-domain",
+            section=SECTION,
+            label="-",
             claim="The inverted relations hold for exactly the strains with Q < 1.",
             latex=r"Q(\mathsf u, \mathsf v) < 1",
-            printed=chain(Q(u, v), "<", 1), check=rules.INVERSE_DOMAIN,
+            printed=chain(Q(u, v), "<", 1),
+            check=rules.INVERSE_DOMAIN,
         ),
         Statement(
-            id="saturation-not-invertible", section=SECTION, label="-",
+            id="saturation-not-invertible",
+            section=SECTION,
+            label="-",
             claim="Strains that stop growing at a finite load would make the relations "
             "non-invertible.",
             latex=r"s(y) = s_\infty \ \text{for all}\ y \geq Y \implies s(Y) = s(2Y)",
-            printed=equal(rules.s(rules.Y), rules.s(2 * rules.Y)), check=rules.SATURATION,
+            printed=equal(rules.s(rules.Y), rules.s(2 * rules.Y)),
+            check=rules.SATURATION,
         ),
     )
 
@@ -440,30 +518,47 @@ def _small_strain() -> tuple[Statement, ...]:
 
     return (
         Statement(
-            id="small-strain-m-mu", section=SECTION, label="-",
+            id="small-strain-m-mu",
+            section=SECTION,
+            label="-",
             claim="Leading-order bending couple.",
             latex=r"m_\mu = \gamma\alpha^2 u_\mu",
-            printed=equal(m[mu], gamma * alpha**2 * u[mu]), check=near,
+            printed=equal(m[mu], gamma * alpha**2 * u[mu]),
+            check=near,
         ),
         Statement(
-            id="small-strain-m-3", section=SECTION, label="-",
+            id="small-strain-m-3",
+            section=SECTION,
+            label="-",
             claim="Leading-order twisting couple.",
             latex=r"m_3 = \gamma\beta^2 u_3 + \gamma\iota(v_3 - 1)",
-            printed=equal(m[3], gamma * beta**2 * u[3] + gamma * iota * (v[3] - 1)), check=near,
+            printed=equal(m[3], gamma * beta**2 * u[3] + gamma * iota * (v[3] - 1)),
+            check=near,
         ),
         Statement(
-            id="small-strain-n-mu", section=SECTION, label="-", claim="Leading-order shear force.",
+            id="small-strain-n-mu",
+            section=SECTION,
+            label="-",
+            claim="Leading-order shear force.",
             latex=r"n_\mu = \gamma\zeta^2 n_\mu",
-            printed=shear(n), check=near, correction=shear(v),
+            printed=shear(n),
+            check=near,
+            correction=shear(v),
             note="The shear force stands on both sides; the strain belongs on the right.",
         ),
         Statement(
-            id="small-strain-n-3", section=SECTION, label="-", claim="Leading-order tension.",
+            id="small-strain-n-3",
+            section=SECTION,
+            label="-",
+            claim="Leading-order tension.",
             latex=r"n_3 = \gamma\iota u_3 + \gamma\eta^2(v_3 - 1)",
-            printed=equal(n[3], gamma * iota * u[3] + gamma * eta**2 * (v[3] - 1)), check=near,
+            printed=equal(n[3], gamma * iota * u[3] + gamma * eta**2 * (v[3] - 1)),
+            check=near,
         ),
         Statement(
-            id="small-strain-moduli", section=SECTION, label="-",
+            id="small-strain-moduli",
+            section=SECTION,
+            label="-",
             claim="Four products of constants are the small-strain moduli.",
             latex=r"\frac{\partial m_\mu}{\partial u_\mu} = \gamma\alpha^2,\ \frac{\partial m_3}"
             r"{\partial u_3} = \gamma\beta^2,\ \frac{\partial n_\mu}{\partial v_\mu} = "
@@ -481,7 +576,9 @@ def _small_strain() -> tuple[Statement, ...]:
             "iota^2/eta^2) in torsion.",
         ),
         Statement(
-            id="chirality-constant", section=SECTION, label="-",
+            id="chirality-constant",
+            section=SECTION,
+            label="-",
             claim="gamma iota couples twist to extension, and its sign is the rod's chirality.",
             latex=r"\frac{\partial m_3}{\partial v_3} = \frac{\partial n_3}{\partial u_3} = "
             r"\gamma\iota, \quad Q_{\text{mirror}} = Q - 4\iota u_3(v_3 - 1) "

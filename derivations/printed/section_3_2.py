@@ -90,23 +90,35 @@ def _center_line() -> tuple[Statement, ...]:
 def _body() -> tuple[Statement, ...]:
     return (
         Statement(
-            id="cross-section-disk", section=SECTION, label="-", introduces=True,
+            id="cross-section-disk",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="The material section is the closed disc of radius a.",
             latex=r"\mathcal A(s) = \{(x^1, x^2) \mid (x^1)^2 + (x^2)^2 \leq a^2\}",
-            printed=_disc(), check=rules.DISC,
+            printed=_disc(),
+            check=rules.DISC,
         ),
         Statement(
-            id="reference-body", section=SECTION, label="-", introduces=True,
+            id="reference-body",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="The slender body at rest: all sections along the rod.",
             latex=r"\mathcal B = \{(x^1, x^2, s) \mid s \in [0, L], (x^1, x^2) \in \mathcal A(s)\}",
-            printed=Every(chain(0, "<=", s, "<=", L), _disc()), check=rules.BODY,
+            printed=Every(chain(0, "<=", s, "<=", L), _disc()),
+            check=rules.BODY,
         ),
         Statement(
-            id="chi-deformation", section=SECTION, label="-", introduces=True,
+            id="chi-deformation",
+            section=SECTION,
+            label="-",
+            introduces=True,
             claim="The deformation that moves each section as a rigid disc.",
             latex=r"\boldsymbol\chi(x^1, x^2, s) = \boldsymbol r(s) + x^1 \boldsymbol d_1(s)"
             r" + x^2 \boldsymbol d_2(s)",
-            printed=equal(chi_vector, r_vector + x1 * d[1] + x2 * d[2]), check=rules.DEFORMATION,
+            printed=equal(chi_vector, r_vector + x1 * d[1] + x2 * d[2]),
+            check=rules.DEFORMATION,
         ),
     )
 

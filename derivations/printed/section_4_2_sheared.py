@@ -75,9 +75,7 @@ _W_TEX = rf"{_A_TEX}(1 - x^2) + {_B_TEX} x^2"
 _G = N ** (-p) + _W ** (p / 2)
 _G_TEX = rf"\Bigl[N^{{-p}} + \Bigl({_W_TEX}\Bigr)^{{p/2}}\Bigr]"
 _X = ((_A - _B) ** 2 + _A - _B) ** sp.Rational(-1, 2)
-_X_TEX = (
-    rf"\Bigl[\Bigl({_A_TEX} - {_B_TEX}\Bigr)^2 + {_A_TEX} - {_B_TEX}\Bigr]^{{-1/2}}"
-)
+_X_TEX = rf"\Bigl[\Bigl({_A_TEX} - {_B_TEX}\Bigr)^2 + {_A_TEX} - {_B_TEX}\Bigr]^{{-1/2}}"
 _root_b = beta / _D ** sp.Rational(1, 2)
 _ROOT_TEX = rf"\frac{{\beta}}{{({_D_TEX})^{{1/2}}}}"
 _F1 = (N ** (-p) + beta**p / _D ** (p / 2)) ** (-1 / p) * _B

@@ -68,14 +68,10 @@ def _body_loads() -> dict[sp.Symbol, sp.Expr]:
 
 
 _FREE = tuple(
-    s
-    for name in ("r_a", "n_a", "m_a", "r_b", "n_b", "m_b", "o")
-    for s in symbols_of(name)
+    s for name in ("r_a", "n_a", "m_a", "r_b", "n_b", "m_b", "o") for s in symbols_of(name)
 )
 _LOCAL = tuple(
-    s
-    for name in ("r", "n", "m", "r_rate", "n_rate", "m_rate", "o")
-    for s in symbols_of(name)
+    s for name in ("r", "n", "m", "r_rate", "n_rate", "m_rate", "o") for s in symbols_of(name)
 )
 
 
@@ -104,9 +100,7 @@ def _bent(start: Vector, end: Vector) -> Callable[[Any], Vector]:
 def _route_of_segment(point: Point, ctx: Any) -> Values:
     """Resultants as integrals of the rates along a segment with these end values."""
     c = curves.numbers(ctx, point)
-    r, n, m = (
-        _bent(*([c[s] for s in symbols_of(f"{x}_{end}")] for end in "ab")) for x in "rnm"
-    )
+    r, n, m = (_bent(*([c[s] for s in symbols_of(f"{x}_{end}")] for end in "ab")) for x in "rnm")
     o = [c[s] for s in symbols_of("o")]
 
     def couple(s: Any) -> Vector:

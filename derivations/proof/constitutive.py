@@ -62,8 +62,11 @@ def _sample_columns(seed: int) -> Point:
 
 
 COLUMNS = Meaning(
-    name="components in a frame", free=(*STRAINS, *LOADS), components=_columns(),
-    sample=_sample_columns, simple=sampling.simple_loads,
+    name="components in a frame",
+    free=(*STRAINS, *LOADS),
+    components=_columns(),
+    sample=_sample_columns,
+    simple=sampling.simple_loads,
 )
 
 # -- the three-dimensional relation -----------------------------------------------------------
@@ -107,12 +110,18 @@ def _sample_tensor(seed: int) -> Point:
 
 
 ON_STRESSES = Meaning(
-    name="all symmetric stresses", free=tuple(_STRESS.free_symbols), components=_symmetric_stress(),
-    sample=_sample_tensor, simple=lambda: (_sample_tensor(0),),
+    name="all symmetric stresses",
+    free=tuple(_STRESS.free_symbols),
+    components=_symmetric_stress(),
+    sample=_sample_tensor,
+    simple=lambda: (_sample_tensor(0),),
 )
 ON_DEFORMATIONS = Meaning(
-    name="all invertible deformation gradients", free=tuple(_F.free_symbols),
-    components=_almansi(), sample=_sample_tensor, simple=lambda: (_sample_tensor(0),),
+    name="all invertible deformation gradients",
+    free=tuple(_F.free_symbols),
+    components=_almansi(),
+    sample=_sample_tensor,
+    simple=lambda: (_sample_tensor(0),),
 )
 TB_RANGES = Ranges((a, b, p))
 
@@ -165,8 +174,11 @@ _STRAIN_RADIUS_SQUARED = theory.quadratic_form().xreplace(dict(ON_LOADS.componen
 _LIMIT_FRACTION = _POWER_OF_LOAD / (gamma**p + _POWER_OF_LOAD)
 
 STRAIN_LIMIT = Supremum(
-    meaning=ON_LOADS, value=_STRAIN_RADIUS_SQUARED, power=p / 2,
-    fraction=_LIMIT_FRACTION, supremum=sp.Integer(1),
+    meaning=ON_LOADS,
+    value=_STRAIN_RADIUS_SQUARED,
+    power=p / 2,
+    fraction=_LIMIT_FRACTION,
+    supremum=sp.Integer(1),
 )
 
 
@@ -198,8 +210,12 @@ INVERSE_DOMAIN = _Reached()
 def _bound(*extremals: tuple[sp.Expr, ...]) -> EllipsoidBound:
     shifted = tuple((*point[:5], point[5] + 1) for point in extremals)
     return EllipsoidBound(
-        strain=STRAINS, rest=(0, 0, 0, 0, 0, 1), stiffness=theory.stiffness_at_rest(),
-        extremals=shifted, positive=(chiral_gap,), sample=sampling.with_strains,
+        strain=STRAINS,
+        rest=(0, 0, 0, 0, 0, 1),
+        stiffness=theory.stiffness_at_rest(),
+        extremals=shifted,
+        positive=(chiral_gap,),
+        sample=sampling.with_strains,
     )
 
 
@@ -242,16 +258,24 @@ def dilatation_bound() -> EllipsoidBound:
 
 #: The structural law against the gradient of W*.
 LAW_ON_LOADS = Meaning(
-    name="all loads, strains by the structural law", free=ON_LOADS.free,
-    components=dict(zip(STRAINS, (*theory.law_of_strains()[:5], 1 + theory.law_of_strains()[5]),
-                        strict=True)),
-    functions=FUNCTIONS, positive=ON_LOADS.positive, edges=ON_LOADS.edges,
-    sample=ON_LOADS.sample, simple=ON_LOADS.simple,
-    route=ON_LOADS.route, route_name=ON_LOADS.route_name,
+    name="all loads, strains by the structural law",
+    free=ON_LOADS.free,
+    components=dict(
+        zip(STRAINS, (*theory.law_of_strains()[:5], 1 + theory.law_of_strains()[5]), strict=True)
+    ),
+    functions=FUNCTIONS,
+    positive=ON_LOADS.positive,
+    edges=ON_LOADS.edges,
+    sample=ON_LOADS.sample,
+    simple=ON_LOADS.simple,
+    route=ON_LOADS.route,
+    route_name=ON_LOADS.route_name,
 )
 
 COMPLEMENTARY_POTENTIAL = Potential(
-    ON_LOADS, Wstar(m, n), tuple(zip(LOADS, theory.law_of_strains(), strict=True)),
+    ON_LOADS,
+    Wstar(m, n),
+    tuple(zip(LOADS, theory.law_of_strains(), strict=True)),
     tuple(NO_LOAD.items()),
 )
 STORED_POTENTIAL = Potential(
@@ -272,12 +296,16 @@ def _sample_radius(seed: int) -> Point:
 
 
 ON_RADII = Meaning(
-    name="all load radii", free=(*CONSTANTS, y), components={x: theory.radial_law().strain},
-    sample=_sample_radius, positive=(chiral_gap,),
+    name="all load radii",
+    free=(*CONSTANTS, y),
+    components={x: theory.radial_law().strain},
+    sample=_sample_radius,
+    positive=(chiral_gap,),
     simple=lambda: tuple(
         {**c, y: sp.Integer(k)} for c in sampling.simple_constants() for k in (1, 3)
     ),
-    route=_radius_route, route_name="strain radius by integrating its slope in the load",
+    route=_radius_route,
+    route_name="strain radius by integrating its slope in the load",
 )
 
 

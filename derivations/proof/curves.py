@@ -62,8 +62,9 @@ def _hamilton(a: Vector, b: Vector) -> Vector:
 
 def uniform_rod(ctx: Any, u: Vector, v: Vector) -> Callable[[Any], tuple[Vector, Frame]]:
     """r(s) and the directors of the rod with constant strain components u and v."""
-    generator = ctx.matrix([[0, -u[2], u[1], v[0]], [u[2], 0, -u[0], v[1]],
-                            [-u[1], u[0], 0, v[2]], [0, 0, 0, 0]])
+    generator = ctx.matrix(
+        [[0, -u[2], u[1], v[0]], [u[2], 0, -u[0], v[1]], [-u[1], u[0], 0, v[2]], [0, 0, 0, 0]]
+    )
 
     @cache
     def at(s: Any) -> tuple[Vector, Frame]:

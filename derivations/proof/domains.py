@@ -67,8 +67,9 @@ class _Numbers:
         self.ctx = ctx
         self.c = {name: ctx.mpf(int(x.p)) / int(x.q) for name, x in point.items()}
         c = self.c
-        self.K = ctx.diag([c[alpha] ** 2, c[alpha] ** 2, c[beta] ** 2,
-                           c[zeta] ** 2, c[zeta] ** 2, c[eta] ** 2])
+        self.K = ctx.diag(
+            [c[alpha] ** 2, c[alpha] ** 2, c[beta] ** 2, c[zeta] ** 2, c[zeta] ** 2, c[eta] ** 2]
+        )
         self.K[2, 5] = self.K[5, 2] = c[iota]
 
     def dual(self, load: list[Any]) -> Any:
@@ -167,8 +168,9 @@ ON_LOADS = Meaning(
     free=(*CONSTANTS, *LOADS),
     sample=sampling.with_loads,
     simple=sampling.simple_loads,
-    components=dict(zip(STRAINS, (*constitutive.strains()[:5], 1 + constitutive.strains()[5]),
-                        strict=True)),
+    components=dict(
+        zip(STRAINS, (*constitutive.strains()[:5], 1 + constitutive.strains()[5]), strict=True)
+    ),
     functions=FUNCTIONS,
     positive=(chiral_gap, constitutive.dual_form()),
     edges=(NO_LOAD,),

@@ -89,18 +89,20 @@ def _ratio() -> sp.Expr:
 
 
 YOUNG = Proof(
-    _young, "the derivative in the load vanishes, and so does the value at zero",
-    _STORED_INTEGRAL.subs(x, _STRAIN) + _COMPLEMENTARY_INTEGRAL, _STRAIN * y,
+    _young,
+    "the derivative in the load vanishes, and so does the value at zero",
+    _STORED_INTEGRAL.subs(x, _STRAIN) + _COMPLEMENTARY_INTEGRAL,
+    _STRAIN * y,
 )
-CONVEX = Proof(
-    _convex, "sign certificate", sp.Derivative(_LOAD, x), sp.diff(_LOAD, x)
-)
+CONVEX = Proof(_convex, "sign certificate", sp.Derivative(_LOAD, x), sp.diff(_LOAD, x))
 SERIES_STORED = Proof(
     _series_stored, "term by term, exactly", _STORED_INTEGRAL, theory.stored_energy_closed()
 )
 SERIES_COMPLEMENTARY = Proof(
-    _series_complementary, "term by term, exactly",
-    _COMPLEMENTARY_INTEGRAL, theory.complementary_energy_closed(),
+    _series_complementary,
+    "term by term, exactly",
+    _COMPLEMENTARY_INTEGRAL,
+    theory.complementary_energy_closed(),
 )
 
 

@@ -79,8 +79,10 @@ def contact(
     """The vectors m(s) and n(s) in the fixed basis."""
     frame = directors(s)
     loads = loads_of(*strains_of(r, directors, s, ctx), constants, ctx)
-    couple, force = ([ctx.fdot(zip(load, axis, strict=True)) for axis in zip(*frame, strict=True)]
-                     for load in loads)
+    couple, force = (
+        [ctx.fdot(zip(load, axis, strict=True)) for axis in zip(*frame, strict=True)]
+        for load in loads
+    )
     return couple, force
 
 

@@ -43,7 +43,6 @@ _NAMED: dict[sp.Basic, str] = {
 VECTORS = Vectors({vector: symbols_of(name) for vector, name in _NAMED.items()})
 
 
-
 def _directors() -> dict[sp.Symbol, sp.Expr]:
     found: dict[sp.Symbol, sp.Expr] = {}
     for i, (director, rate) in enumerate(

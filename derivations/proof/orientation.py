@@ -273,9 +273,11 @@ ENSURES = Ensures()
 def _separate_bounds() -> sp.Expr:
     """inf v_3 - a sup |flexure| over Q < 1, each extremum by itself."""
     lowest = orientation.infimum(v3)
-    return lowest.center - lowest.bound - a * sharp_bound(
-        *(sp.diff(orientation.flexure_in_direction(), e) for e in STRAINS)
-    ).bound
+    return (
+        lowest.center
+        - lowest.bound
+        - a * sharp_bound(*(sp.diff(orientation.flexure_in_direction(), e) for e in STRAINS)).bound
+    )
 
 
 @cache

@@ -240,9 +240,7 @@ def _residual(a: Any, b: Any) -> float:
     return 0.0 if a == b else float(abs(a - b) / max(scale, 1))
 
 
-def counterexample(
-    link: tuple[sp.Expr, str, sp.Expr], meaning: Meaning
-) -> Counterexample | None:
+def counterexample(link: tuple[sp.Expr, str, sp.Expr], meaning: Meaning) -> Counterexample | None:
     """A small point of the domain with exact, different values: rational ones if there are any."""
     relation = link[1]
     left, right = (meaning.interpret(side) for side in (link[0], link[2]))

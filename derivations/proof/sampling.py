@@ -83,18 +83,19 @@ _SIMPLE = (
 
 def simple_constants() -> tuple[Point, ...]:
     """Small rational constants that meet the hypotheses."""
-    points = (
-        dict(zip(CONSTANTS, map(sp.sympify, values), strict=True)) for values in _SIMPLE
-    )
+    points = (dict(zip(CONSTANTS, map(sp.sympify, values), strict=True)) for values in _SIMPLE)
     return tuple(c for c in points if chiral_gap.subs(c) > 0)
 
 
 @cache
 def simple_loads() -> tuple[Point, ...]:
     """Small constants with small loads, rational radii where possible."""
-    vectors = [
-        tuple(3 if k == i else 0 for k in range(6)) for i in (0, 2, 3, 5)
-    ] + [(3, 4, 0, 0, 0, 0), (0, 0, 1, 0, 0, 2), (0, 0, 0, 3, 4, 0), (1, 2, 3, 4, 5, 6)]
+    vectors = [tuple(3 if k == i else 0 for k in range(6)) for i in (0, 2, 3, 5)] + [
+        (3, 4, 0, 0, 0, 0),
+        (0, 0, 1, 0, 0, 2),
+        (0, 0, 0, 3, 4, 0),
+        (1, 2, 3, 4, 5, 6),
+    ]
     return tuple(
         c | dict(zip(LOADS, map(sp.Integer, load), strict=True))
         for load, c in itertools.product(vectors, simple_constants())
@@ -105,10 +106,11 @@ def simple_loads() -> tuple[Point, ...]:
 def simple_strains() -> tuple[Point, ...]:
     """Small constants with small strains inside the limit."""
     part = [sp.Rational(k, 10) for k in range(6)]
-    vectors = [
-        tuple(part[3] if k == i else 0 for k in range(6)) for i in (0, 2, 3, 5)
-    ] + [(part[3], 0, 0, 0, part[4], 0), (part[1], 0, part[1], 0, part[1], part[1]),
-         tuple(part[1] for _ in range(6))]
+    vectors = [tuple(part[3] if k == i else 0 for k in range(6)) for i in (0, 2, 3, 5)] + [
+        (part[3], 0, 0, 0, part[4], 0),
+        (part[1], 0, part[1], 0, part[1], part[1]),
+        tuple(part[1] for _ in range(6)),
+    ]
     points = []
     for strain, c in itertools.product(vectors, simple_constants()):
         shifted = (*strain[:5], 1 + strain[5])

@@ -94,9 +94,19 @@ def sheared_constants(seed: int) -> Point:
 def _generic(seed: int) -> dict[sp.Symbol, sp.Rational]:
     """Generic constants and thrusts, with everything that a state may depend on."""
     point = {**sampling.constants(seed), gamma: sp.Integer(1)}
-    more = {R: (23, 31, 47), N: (23, 31, 47), theta: (11, 25, 40), phi: (-9, 14, 31),
-            psi: (8, -13, 29), psi0: (15, 4, -7), s: (5, 9, 13), x: (6, 13, 17),
-            strand_twist: (8, -11, 14), strand_radius: (5, 7, 9), strand_stretch: (23, 26, 15)}
+    more = {
+        R: (23, 31, 47),
+        N: (23, 31, 47),
+        theta: (11, 25, 40),
+        phi: (-9, 14, 31),
+        psi: (8, -13, 29),
+        psi0: (15, 4, -7),
+        s: (5, 9, 13),
+        x: (6, 13, 17),
+        strand_twist: (8, -11, 14),
+        strand_radius: (5, 7, 9),
+        strand_stretch: (23, 26, 15),
+    }
     return point | {k: sp.Rational(v[seed % 3], 19) for k, v in more.items()}
 
 
@@ -126,8 +136,11 @@ def _small(**others: object) -> tuple[Point, ...]:
 
 def _small_points() -> tuple[Point, ...]:
     angles = {"theta": sp.pi / 6, "varphi": 0, "psi": 0, r"{\psi}(0)": 0, "s": 0}
-    return (*_small(R=2, N=2, x=1, **angles), *_small(R="3/2", N="3/2", x=1, **angles),
-            *_small(R="3/2", N="3/2", x="1/2", **angles))
+    return (
+        *_small(R=2, N=2, x=1, **angles),
+        *_small(R="3/2", N="3/2", x=1, **angles),
+        *_small(R="3/2", N="3/2", x="1/2", **angles),
+    )
 
 
 def _small_states() -> tuple[Point, ...]:
@@ -272,8 +285,9 @@ def route_on_branch(point: Point, ctx: Any) -> Values:
     """N by the root search; the strains, the frame and r' from the numerical law."""
     polar = _number(ctx, point[angle])
     thrust = numeric_thrust(point, polar, ctx)
-    twist = numeric_strains(point, [0] * 3 + [-thrust * ctx.sin(polar), 0,
-                                              thrust * ctx.cos(polar)], ctx)[2]
+    twist = numeric_strains(
+        point, [0] * 3 + [-thrust * ctx.sin(polar), 0, thrust * ctx.cos(polar)], ctx
+    )[2]
     psi_of_s = twist * _number(ctx, point[s]) + _number(ctx, point[psi0])
     found = dict(_state_numbers(point, ctx, thrust, (ctx.mpf(0), polar, psi_of_s)))
     return found | {x_N: ctx.cos(polar), theta: polar, theta_hat: polar, theta_Nk: polar,
@@ -338,7 +352,6 @@ def _any_angle(sign: int) -> Meaning:
 
 
 PUSHED_OR_PULLED = (_any_angle(1), _any_angle(-1))  # balanced or not
-
 
 
 def sheared_residual() -> sp.Expr:

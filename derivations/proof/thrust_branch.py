@@ -338,4 +338,3 @@ def of_both_chiralities(state: Meaning) -> tuple[Meaning, ...]:
         )  # fmt: skip
 
     return part(1), part(-1)
-

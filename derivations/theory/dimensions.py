@@ -46,8 +46,7 @@ def of_constants() -> dict[sp.Symbol, tuple[int, int]]:
     denominator = sp.Poly(first[1], *CONSTANTS).monoms()[0]
     powers = {s: -k for s, k in zip(CONSTANTS, denominator, strict=True) if k}
     equations += [
-        a - 2 * b
-        for a, b in zip(monomial({LOADS[0]: 2, **powers}), unknown[gamma], strict=True)
+        a - 2 * b for a, b in zip(monomial({LOADS[0]: 2, **powers}), unknown[gamma], strict=True)
     ]
     equations += list(unknown[p])
     symbols = [s for pair in unknown.values() for s in pair]

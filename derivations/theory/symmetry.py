@@ -84,8 +84,9 @@ def action(operation: Operation) -> Action:
     directors = described(basis)
     rates = [sense * rate for rate in described([u.cross(d) for d in basis])]
     tangent = sense * S * v
-    darboux = sum((d.cross(rate) for d, rate in zip(directors, rates, strict=True)),
-                  sp.zeros(3, 1)) / 2
+    darboux = (
+        sum((d.cross(rate) for d, rate in zip(directors, rates, strict=True)), sp.zeros(3, 1)) / 2
+    )
     return Action(_linear(directors, darboux, u), _linear(directors, tangent, v))
 
 

@@ -231,5 +231,3 @@ def strand_handedness(twist: sp.Expr, radius: sp.Expr, stretch: sp.Expr) -> sp.E
     strand = sp.Matrix([radius * sp.cos(twist * s), radius * sp.sin(twist * s), stretch * s])
     d1, d2, d3 = (strand.diff(s, k) for k in (1, 2, 3))
     return sp.trigsimp(d1.cross(d2).dot(d3))
-
-
