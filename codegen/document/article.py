@@ -137,7 +137,7 @@ def _step(step: Step, label: str, verdicts: dict[str, Evidence]) -> str:
         (
             rf"\textbf{{{prose(step.title)}.}} {prose(step.rule)}",
             display(rows(step.formula), label),
-            rf"{{\small Settles {settled}.}}" if settled else "",
+            rf"{{\small\raggedright Settles {settled}.\par}}" if settled else "",
         )
     )
 

@@ -158,6 +158,7 @@ def mathematics(text: str) -> str:
 
 _SIGNS = (
     (r"->", r"\to "),
+    (r"×", r"\times "),
     (r"!=", r"\neq "),
     (r">=", r"\geq "),
     (r"<=", r"\leq "),

@@ -17,7 +17,7 @@ from rodproof.derivations.records import Evidence
 
 @pytest.fixture(scope="module")
 def evidence() -> tuple[Evidence, ...]:
-    return ledger.check(ledger.statements("3.1"))
+    return ledger.check(ledger.statements(), jobs=2)
 
 
 def test_every_statement_and_step_is_in_it(tmp_path: Path, evidence: tuple[Evidence, ...]) -> None:
@@ -46,6 +46,7 @@ def test_it_compiles_without_errors_or_overfull_lines(
         )  # fmt: skip
     assert done.returncode == 0, done.stdout[-2000:]
     assert "undefined" not in done.stdout.lower()
+    assert "invalid in math mode" not in done.stdout
     wide = [float(w) for w in re.findall(r"Overfull \\hbox \(([\d.]+)pt", done.stdout)]
     assert all(w < 10 for w in wide), wide
 
