@@ -19,7 +19,6 @@ from pathlib import Path
 
 from rodproof.derivations.latex import block
 from rodproof.derivations.proof.mutants import mutants as broken_twins
-from rodproof.derivations.proof.prover import DIGITS, POINTS
 from rodproof.derivations.records import VERDICTS, Confirmation, Decision, Evidence, Statement
 
 #: One module a section, in the order of the paper.
@@ -137,7 +136,7 @@ def judge(statement: Statement, *, mutants: bool = False) -> Evidence:
     """Decide one statement, confirm it by the second route, correct it if false."""
     started = time.perf_counter()
     printed = statement.check.decide(statement.printed)
-    accepted = statement.correction or statement.read_as or statement.printed
+    accepted = statement.accepted
     decision = printed if accepted is statement.printed else statement.check.decide(accepted)
     confirmation = statement.check.confirm(accepted) if decision.holds else None
     verdict = _verdict(statement, printed, decision, confirmation)
@@ -148,8 +147,8 @@ def judge(statement: Statement, *, mutants: bool = False) -> Evidence:
         label=statement.label,
         verdict=verdict,
         method=decision.method,
-        digits=confirmation.digits if confirmation else (DIGITS if POINTS else None),
-        points=POINTS + (confirmation.points if confirmation else 0),
+        digits=confirmation.digits if confirmation else None,
+        points=confirmation.points if confirmation else 0,
         seconds=round(time.perf_counter() - started, 4),
         mutants_tried=tried.tried if tried else None,
         mutants_killed=tried.killed if tried else None,
@@ -213,9 +212,8 @@ class _Teeth:
 
     @classmethod
     def of(cls, statement: Statement) -> _Teeth:
-        base = statement.correction or statement.read_as or statement.printed
         equivalent, survivors = 0, []
-        twins = broken_twins(base)
+        twins = broken_twins(statement.accepted)
         for twin in twins:
             found = statement.check.decide(twin.tree, explain=False)
             if found.holds and found.exact:

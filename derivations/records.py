@@ -85,6 +85,11 @@ class Statement:
     correction: sp.Basic | None = None
     note: str = ""
 
+    @property
+    def accepted(self) -> sp.Basic:
+        """What is held to be true: the correction, the reading, or what is printed."""
+        return self.correction or self.read_as or self.printed
+
 
 @dataclass(frozen=True)
 class Evidence:

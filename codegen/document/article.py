@@ -107,8 +107,8 @@ def _summary(evidence: Sequence[Evidence]) -> str:
         f"{len(evidence)} statements of the paper~\\cite{{paper}} are held against a derivation "
         f"from first principles: {listed}. Every step of the derivation is proved exactly, with "
         "symbolic $p$ and symbolic constants, and confirmed by a second, numerical route at 50 "
-        "digits. What is false as printed stands beside its correction in the text and is "
-        "collected, with counterexamples, in the appendix.\n" + r"\end{abstract}"
+        "digits where it has one. What is false as printed stands beside its correction in the "
+        "text and is collected, with counterexamples, in the appendix.\n" + r"\end{abstract}"
     )
 
 

@@ -12,5 +12,4 @@ def settle(name: str, title: str, rule: str, *also: str) -> Step:
     also: further statements that the same step settles.
     """
     (statement,) = ledger.find((name,))
-    accepted = statement.correction or statement.read_as or statement.printed
-    return Step(title, rule, accepted, statement.check, (name, *also))
+    return Step(title, rule, statement.accepted, statement.check, (name, *also))
