@@ -1,9 +1,10 @@
 # make        set up .venv if it is missing, then derive, check, generate, document and measure
 # make test   set up, then prove everything again and run the tests
+# make extras add what the optional parts need (numba, PyElastica, dask.distributed)
 # make lint   style, types and the layers
 SHELL := /bin/bash
 .DEFAULT_GOAL := run
-.PHONY: run setup test lint lock clean
+.PHONY: run setup extras peers test lint lock clean
 
 PYTHONS := python3 python3.13 python3.12 python3.11
 BIN := .venv/bin
@@ -17,6 +18,13 @@ setup: $(STAMP)
 
 test: $(STAMP)
 	@$(BIN)/python -m pytest -q -n 2
+
+# Parts that need an extra are tested where it is installed, and named as skipped elsewhere.
+extras: $(STAMP)
+	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements-extras.lock
+
+peers: extras
+	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements-peers.lock
 
 lint: $(STAMP)
 	@mkdir -p .venv/typing/rodproof
@@ -45,10 +53,20 @@ $(STAMP): requirements.lock pyproject.toml
 	$(BIN)/python -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -e .; \
 	touch $@
 
-# Pins what is installed now (for whoever maintains the project).
+# Pins what a fresh environment gets today, layer by layer (for whoever maintains the project).
+FREEZE := -m pip freeze --all --exclude pip | LC_ALL=C sort -f
 lock: $(STAMP)
-	@$(BIN)/python -m pip freeze --all --exclude-editable --exclude pip | LC_ALL=C sort -f > requirements.lock.new
-	@mv requirements.lock.new requirements.lock && touch $(STAMP)
+	@set -e; bare=$$(mktemp -d); trap 'rm -rf "$$bare"' EXIT; \
+	$(BIN)/python -m venv "$$bare"; : > "$$bare/before"; \
+	for layer in test,lint:requirements numba,elastica,cluster:requirements-extras \
+	             peers:requirements-peers; do \
+	    "$$bare/bin/python" -m pip install -q --disable-pip-version-check ".[$${layer%%:*}]"; \
+	    "$$bare/bin/python" $(FREEZE) | grep -v '^rodproof' > "$$bare/after"; \
+	    comm -13 <(LC_ALL=C sort "$$bare/before") <(LC_ALL=C sort "$$bare/after") | \
+	        LC_ALL=C sort -f > "$${layer#*:}.lock"; \
+	    cp "$$bare/after" "$$bare/before"; \
+	done; \
+	touch $(STAMP)
 
 clean:
 	rm -rf build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
