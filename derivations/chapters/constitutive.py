@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import constitutive as rules
+from rodproof.derivations.checks.domains import MIRRORED_FORM, NEAR_REST, ON_LOADS, ON_STRAINS
 from rodproof.derivations.notation import (
     Every,
     Partial,
@@ -20,8 +22,6 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
-from rodproof.derivations.proof import constitutive as rules
-from rodproof.derivations.proof.domains import MIRRORED_FORM, NEAR_REST, ON_LOADS, ON_STRAINS
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.proof.rules import MatrixIdentity
 from rodproof.derivations.records import Derivation, Step

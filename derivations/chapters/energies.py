@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import constitutive as rules
+from rodproof.derivations.checks import energies
 from rodproof.derivations.notation import Q, W, equal, t, u, v
-from rodproof.derivations.proof import constitutive as rules
-from rodproof.derivations.proof import energies
 from rodproof.derivations.records import Derivation, Step
 from rodproof.derivations.symbols import gamma, p
 from rodproof.derivations.theory import constitutive as theory

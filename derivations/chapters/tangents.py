@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks.domains import ON_LOADS, ON_STRAINS
 from rodproof.derivations.notation import Q, Qstar, equal, m, n, u, v
-from rodproof.derivations.proof.domains import ON_LOADS, ON_STRAINS
 from rodproof.derivations.proof.rules import MatrixIdentity
 from rodproof.derivations.records import Derivation, Step
 from rodproof.derivations.symbols import LOADS, gamma, p

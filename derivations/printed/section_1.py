@@ -4,6 +4,11 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import constitutive, kinematics
+from rodproof.derivations.checks import introduction as rules
+from rodproof.derivations.checks.introduction import e, g, hessian, radius
+from rodproof.derivations.checks.kinematics import d, r_vector, u_vector
+from rodproof.derivations.checks.symmetry import INSIDE, R
 from rodproof.derivations.notation import (
     Cross,
     Every,
@@ -24,11 +29,6 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
-from rodproof.derivations.proof import constitutive, kinematics
-from rodproof.derivations.proof import introduction as rules
-from rodproof.derivations.proof.introduction import e, g, hessian, radius
-from rodproof.derivations.proof.kinematics import d, r_vector, u_vector
-from rodproof.derivations.proof.symmetry import INSIDE, R
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, zeta
 from rodproof.derivations.theory.frames import psi, theta

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from rodproof.derivations.checks import kinematics as rules
+from rodproof.derivations.checks import orientation
+from rodproof.derivations.checks.kinematics import d, r_vector, u_vector
 from rodproof.derivations.notation import (
     Cross,
     Dot,
@@ -15,9 +18,6 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
-from rodproof.derivations.proof import kinematics as rules
-from rodproof.derivations.proof import orientation
-from rodproof.derivations.proof.kinematics import d, r_vector, u_vector
 from rodproof.derivations.records import Statement
 
 SECTION = "2.1"

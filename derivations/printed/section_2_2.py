@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from rodproof.derivations.notation import Cross, Every, Prime, Summed, equal, k, m, n, u, v
-from rodproof.derivations.proof import balance as rules
-from rodproof.derivations.proof import kinematics
-from rodproof.derivations.proof.balance import (
+from rodproof.derivations.checks import balance as rules
+from rodproof.derivations.checks import kinematics
+from rodproof.derivations.checks.balance import (
     AT_ENDS,
     body_couple,
     body_force,
@@ -18,7 +17,8 @@ from rodproof.derivations.proof.balance import (
     o_vector,
     r_vector,
 )
-from rodproof.derivations.proof.kinematics import d
+from rodproof.derivations.checks.kinematics import d
+from rodproof.derivations.notation import Cross, Every, Prime, Summed, equal, k, m, n, u, v
 from rodproof.derivations.records import Statement
 
 SECTION = "2.2"

@@ -4,6 +4,13 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import constitutive as rules
+from rodproof.derivations.checks.domains import (
+    MIRRORED_FORM,
+    NEAR_REST,
+    ON_LOADS,
+    ON_STRAINS,
+)
 from rodproof.derivations.notation import (
     Chain,
     Every,
@@ -23,13 +30,6 @@ from rodproof.derivations.notation import (
     t,
     u,
     v,
-)
-from rodproof.derivations.proof import constitutive as rules
-from rodproof.derivations.proof.domains import (
-    MIRRORED_FORM,
-    NEAR_REST,
-    ON_LOADS,
-    ON_STRAINS,
 )
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.records import Statement

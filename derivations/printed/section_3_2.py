@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import kinematics
+from rodproof.derivations.checks import orientation as rules
+from rodproof.derivations.checks.kinematics import d
+from rodproof.derivations.checks.orientation import L, chi_vector, det, r_vector, s
 from rodproof.derivations.notation import (
     Chain,
     Every,
@@ -17,10 +21,6 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
-from rodproof.derivations.proof import kinematics
-from rodproof.derivations.proof import orientation as rules
-from rodproof.derivations.proof.kinematics import d
-from rodproof.derivations.proof.orientation import L, chi_vector, det, r_vector, s
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, iota
 from rodproof.derivations.theory.orientation import a, x1, x2

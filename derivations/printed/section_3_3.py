@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import symmetry as rules
+from rodproof.derivations.checks.symmetry import E, Phi, R
 from rodproof.derivations.notation import Chain, Every, ForAll, Iff, W, equal, u, v
-from rodproof.derivations.proof import symmetry as rules
-from rodproof.derivations.proof.symmetry import E, Phi, R
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import iota
 from rodproof.derivations.theory.frames import psi, theta

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import monotonicity as rules
+from rodproof.derivations.checks.tangents import UNIT_STRAINS, a, b
+from rodproof.derivations.checks.units import Units
 from rodproof.derivations.notation import (
     Chain,
     Every,
@@ -26,9 +29,6 @@ from rodproof.derivations.notation import (
     v,
 )
 from rodproof.derivations.printed import section_3_4_extras as extras
-from rodproof.derivations.proof import monotonicity as rules
-from rodproof.derivations.proof.tangents import UNIT_STRAINS, a, b
-from rodproof.derivations.proof.units import Units
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 from rodproof.derivations.theory.dimensions import length

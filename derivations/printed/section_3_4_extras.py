@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import monotonicity as rules
+from rodproof.derivations.checks.increments import Increments, xA, xB, yA, yB
+from rodproof.derivations.checks.tangents import UNIT_STRAINS, a, b
 from rodproof.derivations.notation import FormQ, HessianForm, Q, chain, u, v
-from rodproof.derivations.proof import monotonicity as rules
-from rodproof.derivations.proof.increments import Increments, xA, xB, yA, yB
-from rodproof.derivations.proof.tangents import UNIT_STRAINS, a, b
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import p
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks.end_force import FORCE, force_at
+from rodproof.derivations.checks.euler import STATES, d, g
 from rodproof.derivations.notation import Dot, Every, Prime, equal
-from rodproof.derivations.proof.end_force import FORCE, force_at
-from rodproof.derivations.proof.euler import STATES, d, g
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.records import Statement
 from rodproof.derivations.theory.euler import N

@@ -4,22 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from rodproof.derivations.notation import (
-    Chain,
-    Cross,
-    Dot,
-    Every,
-    Prime,
-    Qstar,
-    Wstar,
-    equal,
-    m,
-    mu,
-    n,
-    u,
-    v,
-)
-from rodproof.derivations.proof.euler import (
+from rodproof.derivations.checks.euler import (
     CLOSED,
     MOVING_LOADS,
     N_,
@@ -39,6 +24,21 @@ from rodproof.derivations.proof.euler import (
     q,
     u_scalar,
     v_scalar,
+)
+from rodproof.derivations.notation import (
+    Chain,
+    Cross,
+    Dot,
+    Every,
+    Prime,
+    Qstar,
+    Wstar,
+    equal,
+    m,
+    mu,
+    n,
+    u,
+    v,
 )
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.records import Statement

@@ -7,6 +7,23 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks.thrust import domains
+from rodproof.derivations.checks.thrust.branch import Determined, TwistedUnless, of_both_chiralities
+from rodproof.derivations.checks.thrust.domains import d, psi0, scalar_v, tangent
+from rodproof.derivations.checks.thrust.states import (
+    COUPLE_BALANCE,
+    FLEXURE_1,
+    FLEXURE_2,
+    TWIST,
+    Alternatives,
+    Both,
+    InAllStates,
+    InEquilibrium,
+    Jointly,
+    LinkByLink,
+    NamesStretch,
+    Vanish,
+)  # fmt: skip
 from rodproof.derivations.notation import (
     Either,
     Every,
@@ -23,24 +40,7 @@ from rodproof.derivations.notation import (
     v,
 )  # fmt: skip
 from rodproof.derivations.printed import section_4_2_sheared
-from rodproof.derivations.proof import thrust as domains
 from rodproof.derivations.proof.prover import Identity
-from rodproof.derivations.proof.thrust import d, psi0, scalar_v, tangent
-from rodproof.derivations.proof.thrust_branch import Determined, TwistedUnless, of_both_chiralities
-from rodproof.derivations.proof.thrust_checks import (
-    COUPLE_BALANCE,
-    FLEXURE_1,
-    FLEXURE_2,
-    TWIST,
-    Alternatives,
-    Both,
-    InAllStates,
-    InEquilibrium,
-    Jointly,
-    LinkByLink,
-    NamesStretch,
-    Vanish,
-)  # fmt: skip
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import LOADS, beta, eta, iota, p, u1, u2, u3, v1, v2, v3, zeta
 from rodproof.derivations.theory.frames import phi, psi, theta

@@ -4,6 +4,38 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks.thrust import domains
+from rodproof.derivations.checks.thrust.branch import (
+    ClosedAngle,
+    NearThreshold,
+    OnTheBranch,
+    SharpPowers,
+    SharpSign,
+    angle_at_p2,
+    limiting_angle,
+)  # fmt: skip
+from rodproof.derivations.checks.thrust.domains import N_thresh, d, fN, psi0, scalar_v, tangent, x_N
+from rodproof.derivations.checks.thrust.moduli import (
+    Necessary,
+    SameSides,
+    SameSign,
+    b,
+    c,
+    condition_1_follows,
+    condition_2_follows,
+    kappa,
+)  # fmt: skip
+from rodproof.derivations.checks.thrust.states import (
+    COUPLE_BALANCE,
+    FLEXURE_1,
+    Both,
+    Deduction,
+    Equation,
+    InAllStates,
+    InEquilibrium,
+    Jointly,
+    LinkByLink,
+)  # fmt: skip
 from rodproof.derivations.notation import (
     Every,
     Iff,
@@ -18,39 +50,7 @@ from rodproof.derivations.notation import (
     u,
     v,
 )  # fmt: skip
-from rodproof.derivations.proof import thrust as domains
-from rodproof.derivations.proof.moduli import (
-    Necessary,
-    SameSides,
-    SameSign,
-    b,
-    c,
-    condition_1_follows,
-    condition_2_follows,
-    kappa,
-)  # fmt: skip
 from rodproof.derivations.proof.prover import Identity
-from rodproof.derivations.proof.thrust import N_thresh, d, fN, psi0, scalar_v, tangent, x_N
-from rodproof.derivations.proof.thrust_branch import (
-    ClosedAngle,
-    NearThreshold,
-    OnTheBranch,
-    SharpPowers,
-    SharpSign,
-    angle_at_p2,
-    limiting_angle,
-)  # fmt: skip
-from rodproof.derivations.proof.thrust_checks import (
-    COUPLE_BALANCE,
-    FLEXURE_1,
-    Both,
-    Deduction,
-    Equation,
-    InAllStates,
-    InEquilibrium,
-    Jointly,
-    LinkByLink,
-)  # fmt: skip
 from rodproof.derivations.records import Check, Statement
 from rodproof.derivations.symbols import beta, eta, iota, p, u1, u2, u3, v1, v2, v3, zeta
 from rodproof.derivations.theory.frames import phi, theta

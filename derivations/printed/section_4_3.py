@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks.couple import equations as rules
+from rodproof.derivations.checks.couple import states
+from rodproof.derivations.checks.couple.domains import OfState
+from rodproof.derivations.checks.couple.route import d1, d2, d3, d3_s, length, r_s
 from rodproof.derivations.notation import (
     Every,
     Iff,
@@ -18,10 +22,6 @@ from rodproof.derivations.notation import (
     v,
 )
 from rodproof.derivations.printed import section_4_3_helix
-from rodproof.derivations.proof import couple_checks as rules
-from rodproof.derivations.proof import couple_states as states
-from rodproof.derivations.proof.couple import OfState
-from rodproof.derivations.proof.couple_route import d1, d2, d3, d3_s, length, r_s
 from rodproof.derivations.proof.exactly import exactly
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import beta, eta, iota, p

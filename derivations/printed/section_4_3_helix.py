@@ -4,6 +4,18 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks.couple import equations as rules
+from rodproof.derivations.checks.couple import states
+from rodproof.derivations.checks.couple.domains import OfState
+from rodproof.derivations.checks.couple.route import (
+    curvature,
+    m_g,
+    pitch,
+    r,
+    r_s,
+    radius,
+    torsion,
+)
 from rodproof.derivations.notation import (
     Every,
     Iff,
@@ -15,18 +27,6 @@ from rodproof.derivations.notation import (
     positive,
     u,
     v,
-)
-from rodproof.derivations.proof import couple_checks as rules
-from rodproof.derivations.proof import couple_states as states
-from rodproof.derivations.proof.couple import OfState
-from rodproof.derivations.proof.couple_route import (
-    curvature,
-    m_g,
-    pitch,
-    r,
-    r_s,
-    radius,
-    torsion,
 )
 from rodproof.derivations.proof.exactly import exactly
 from rodproof.derivations.records import Statement

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import dynamics as rules
+from rodproof.derivations.checks import ends
+from rodproof.derivations.checks.dynamics import H, H_t, m_s, n_s, r_tt, u_t, v_t, w
 from rodproof.derivations.notation import (
     Every,
     Partial,
@@ -19,9 +22,6 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
-from rodproof.derivations.proof import dynamics as rules
-from rodproof.derivations.proof import ends
-from rodproof.derivations.proof.dynamics import H, H_t, m_s, n_s, r_tt, u_t, v_t, w
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.records import Statement
 from rodproof.derivations.theory.dissipation import (

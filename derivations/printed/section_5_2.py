@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import dna as rules
 from rodproof.derivations.notation import (
     Every,
     Iff,
@@ -15,7 +16,6 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
-from rodproof.derivations.proof import dna as rules
 from rodproof.derivations.proof.exactly import exactly
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.records import Statement

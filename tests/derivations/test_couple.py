@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from rodproof.derivations.checks.couple import domains
+from rodproof.derivations.checks.couple.domains import OfState
+from rodproof.derivations.checks.couple.equations import CIRCLES, HELICES, TWISTED
+from rodproof.derivations.checks.couple.route import torsion
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import equal, u
-from rodproof.derivations.proof import couple as domains
-from rodproof.derivations.proof.couple import OfState
-from rodproof.derivations.proof.couple_checks import CIRCLES, HELICES, TWISTED
-from rodproof.derivations.proof.couple_route import torsion
 from rodproof.derivations.symbols import v3
 from rodproof.derivations.theory import couple, euler
 from rodproof.derivations.theory.euler import M1, phi_s

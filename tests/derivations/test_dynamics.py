@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import dynamics as domains
+from rodproof.derivations.checks import ends
 from rodproof.derivations.exact.field import Field
-from rodproof.derivations.proof import dynamics as domains
-from rodproof.derivations.proof import ends
 from rodproof.derivations.symbols import STRAINS, alpha, beta, chiral_gap, eta, gamma, iota, zeta
 from rodproof.derivations.theory import constitutive, dissipation, dynamics
 from rodproof.derivations.theory.dissipation import a, b, x

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from rodproof.derivations.checks import balance as balance_rules
+from rodproof.derivations.checks import kinematics as rules
+from rodproof.derivations.checks.kinematics import d, u_vector
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Cross, Dot, Every, Prime, Summed, equal, k
-from rodproof.derivations.proof import balance as balance_rules
-from rodproof.derivations.proof import kinematics as rules
-from rodproof.derivations.proof.kinematics import d, u_vector
 from rodproof.derivations.theory import balance, kinematics
 from rodproof.derivations.theory.frames import dot, euler_frame, phi, psi, theta
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from rodproof.derivations.checks import monotonicity as rules
+from rodproof.derivations.checks.tangents import UNIT_STRAINS
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.exact.limits import limit
 from rodproof.derivations.ledger import check, find, judge
-from rodproof.derivations.proof import monotonicity as rules
-from rodproof.derivations.proof.tangents import UNIT_STRAINS
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import STRAINS, beta, chiral_gap, eta, iota, p
 from rodproof.derivations.theory import monotonicity as theory

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from rodproof.derivations.checks import orientation as rules
 from rodproof.derivations.notation import ForAll, Iff, Implies, Q, chain, positive, u, v
 from rodproof.derivations.proof import conditions
-from rodproof.derivations.proof import orientation as rules
 from rodproof.derivations.symbols import CONSTANTS, STRAINS, alpha, beta, eta, iota
 from rodproof.derivations.theory import orientation
 from rodproof.derivations.theory.constitutive import quadratic_form

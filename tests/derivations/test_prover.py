@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from rodproof.derivations.checks.domains import ON_LOADS, ON_STRAINS
 from rodproof.derivations.notation import (
     Every,
     Iff,
@@ -24,7 +25,6 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
-from rodproof.derivations.proof.domains import ON_LOADS, ON_STRAINS
 from rodproof.derivations.proof.mutants import mutants
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.symbols import alpha, beta, chiral_gap, eta, gamma, iota, p

@@ -6,6 +6,7 @@ import pytest
 import sympy as sp
 
 from rodproof.derivations import ledger
+from rodproof.derivations.checks.domains import ON_LOADS
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
@@ -27,7 +28,6 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
-from rodproof.derivations.proof.domains import ON_LOADS
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.symbols import chiral_gap, eta, gamma, iota, p
 

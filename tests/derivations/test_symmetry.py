@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks import introduction
+from rodproof.derivations.checks import symmetry as rules
 from rodproof.derivations.exact.field import Field
-from rodproof.derivations.proof import introduction
-from rodproof.derivations.proof import symmetry as rules
 from rodproof.derivations.symbols import STRAINS, iota, u3, v3
 from rodproof.derivations.theory import loading, symmetry
 from rodproof.derivations.theory.frames import psi, theta

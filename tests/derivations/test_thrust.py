@@ -6,14 +6,14 @@ import mpmath
 import pytest
 import sympy as sp
 
+from rodproof.derivations.checks.equilibrium import balance_residual, curve, frame, loads_of
+from rodproof.derivations.checks.thrust import domains
+from rodproof.derivations.checks.thrust.branch import angle_is_function_of_thrust
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Every, Iff, chain, equal, positive, u, v
 from rodproof.derivations.printed import section_4_2
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof import thrust as domains
-from rodproof.derivations.proof.equilibrium import balance_residual, curve, frame, loads_of
-from rodproof.derivations.proof.thrust_branch import angle_is_function_of_thrust
 from rodproof.derivations.symbols import chiral_gap, gamma, iota, u3, v1, v2, v3
 from rodproof.derivations.theory import constitutive
 from rodproof.derivations.theory import thrust as theory

@@ -7,10 +7,10 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.domains import ON_LOADS, _Numbers
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Iff, LimitOf, instances
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.domains import ON_LOADS, _Numbers
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.records import Confirmation, Counterexample, Decision

@@ -17,8 +17,8 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.domains import _Numbers
 from rodproof.derivations.exact.evaluate import Evaluator
-from rodproof.derivations.proof.domains import _Numbers
 from rodproof.derivations.proof.meaning import Point
 
 Vector = list[Any]  # three numbers of the context, components in the fixed basis

@@ -7,9 +7,9 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks import equilibrium as route
 from rodproof.derivations.exact.evaluate import Evaluator
 from rodproof.derivations.notation import Prime
-from rodproof.derivations.proof import equilibrium as route
 from rodproof.derivations.proof.meaning import Point, Values
 from rodproof.derivations.symbols import STRAINS, gamma
 from rodproof.derivations.theory import euler

@@ -9,13 +9,8 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.exact.evaluate import context
-from rodproof.derivations.exact.field import Field, OutOfReach
-from rodproof.derivations.exact.limits import limit
-from rodproof.derivations.notation import Chain, Implies, LimitOf, instances
-from rodproof.derivations.proof import thrust as domains
-from rodproof.derivations.proof.meaning import Meaning, Point
-from rodproof.derivations.proof.moduli import (
+from rodproof.derivations.checks.thrust import domains
+from rodproof.derivations.checks.thrust.moduli import (
     a,
     at_point,
     b,
@@ -25,8 +20,13 @@ from rodproof.derivations.proof.moduli import (
     numbers,
     sides_of,
 )
+from rodproof.derivations.checks.thrust.states import REJECTED, InAllStates
+from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.field import Field, OutOfReach
+from rodproof.derivations.exact.limits import limit
+from rodproof.derivations.notation import Chain, Implies, LimitOf, instances
+from rodproof.derivations.proof.meaning import Meaning, Point
 from rodproof.derivations.proof.prover import DIGITS, POINTS, ROUTE_POINTS, Identity, claims
-from rodproof.derivations.proof.thrust_checks import REJECTED, InAllStates
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import (
     iota,

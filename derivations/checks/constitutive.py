@@ -7,10 +7,10 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.domains import FUNCTIONS, NO_LOAD, ON_LOADS, ON_STRAINS, REST
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Every, W, Wstar, m, n, u, v
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.domains import FUNCTIONS, NO_LOAD, ON_LOADS, ON_STRAINS, REST
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.proof.rules import (

@@ -13,11 +13,11 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks import equilibrium as numeric
+from rodproof.derivations.checks.couple.domains import HALF_ANGLE, on_all
+from rodproof.derivations.checks.couple.route import t
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.notation import Every
-from rodproof.derivations.proof import equilibrium as numeric
-from rodproof.derivations.proof.couple import HALF_ANGLE, on_all
-from rodproof.derivations.proof.couple_route import t
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.records import Confirmation, Decision

@@ -12,10 +12,10 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.domains import ON_STRAINS, _Numbers
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.notation import FormQ, HessianForm, Partial, Q, W, u, v
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.domains import ON_STRAINS, _Numbers
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
 from rodproof.derivations.proof.prover import ROUTE_POINTS
 from rodproof.derivations.symbols import (

@@ -13,16 +13,16 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.exact.field import Field
-from rodproof.derivations.notation import Chain, Every, Partial, W, Wstar, m, n, u, v
-from rodproof.derivations.proof import equilibrium as numeric
-from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.domains import (
+from rodproof.derivations.checks import equilibrium as numeric
+from rodproof.derivations.checks.domains import (
     NO_LOAD,
     ON_LOADS,
     ON_STRAINS,
     _Numbers,
 )
+from rodproof.derivations.exact.field import Field
+from rodproof.derivations.notation import Chain, Every, Partial, W, Wstar, m, n, u, v
+from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.proof.prover import Identity, claims
 from rodproof.derivations.records import Confirmation, Decision

@@ -8,13 +8,13 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.monotonicity import stiffness_is_definite
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.domains import _Numbers
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
-from rodproof.derivations.proof.monotonicity import stiffness_is_definite
 from rodproof.derivations.proof.prover import DIGITS, ROUTE_POINTS, claims
 from rodproof.derivations.records import Confirmation, Decision
 from rodproof.derivations.symbols import CONSTANTS, STRAINS, chiral_gap, gamma, p

@@ -11,13 +11,13 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.thrust import domains
+from rodproof.derivations.checks.thrust.states import REJECTED, Equation, all_of
 from rodproof.derivations.exact.evaluate import Evaluator, context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Iff, Implies
-from rodproof.derivations.proof import thrust as domains
 from rodproof.derivations.proof.meaning import Meaning, Point
 from rodproof.derivations.proof.prover import DIGITS, POINTS
-from rodproof.derivations.proof.thrust_checks import REJECTED, Equation, all_of
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import (
     alpha,

@@ -13,8 +13,8 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.proof.domains import _Numbers
-from rodproof.derivations.proof.equilibrium import cross, dot, norm
+from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.equilibrium import cross, dot, norm
 from rodproof.derivations.proof.meaning import Point
 from rodproof.derivations.symbols import CONSTANTS, STRAINS, gamma, p, v3
 from rodproof.derivations.theory import euler as theory

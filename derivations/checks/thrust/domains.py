@@ -15,9 +15,9 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.domains import _Numbers
 from rodproof.derivations.notation import LimitOf
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.domains import _Numbers
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.symbols import (
     LOADS,

@@ -8,16 +8,16 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.domains import FUNCTIONS, ON_LOADS, ON_STRAINS, _Numbers
+from rodproof.derivations.checks.symmetry import HasSymmetries
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Every, Implies, Partial, PositiveDefinite
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.conditions import Ensures
-from rodproof.derivations.proof.domains import FUNCTIONS, ON_LOADS, ON_STRAINS, _Numbers
 from rodproof.derivations.proof.implications import Implication
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.proof.prover import Identity, claims, counterexample
 from rodproof.derivations.proof.rules import Formalised
-from rodproof.derivations.proof.symmetry import HasSymmetries
 from rodproof.derivations.proof.vectors import REJECTED
 from rodproof.derivations.records import Check, Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import CONSTANTS, LOADS, STRAINS, chiral_gap, gamma, p

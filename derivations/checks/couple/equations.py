@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from rodproof.derivations.checks.couple import domains
+from rodproof.derivations.checks.couple.domains import Branch, OfState, on_all
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import (
     Chain,
@@ -16,8 +18,6 @@ from rodproof.derivations.notation import (
     equal,
     instances,
 )
-from rodproof.derivations.proof import couple as domains
-from rodproof.derivations.proof.couple import Branch, OfState, on_all
 from rodproof.derivations.proof.meaning import IllTyped, Meaning
 from rodproof.derivations.proof.prover import Identity, claims
 from rodproof.derivations.records import Confirmation, Counterexample, Decision

@@ -8,6 +8,11 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.couple import domains
+from rodproof.derivations.checks.couple.domains import Branch, OfState, on_all
+from rodproof.derivations.checks.couple.equations import TWISTED
+from rodproof.derivations.checks.couple.route import c, length, r_s
+from rodproof.derivations.checks.thrust.domains import numeric_strains
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
@@ -20,13 +25,8 @@ from rodproof.derivations.notation import (
     equal,
     instances,
 )
-from rodproof.derivations.proof import couple as domains
-from rodproof.derivations.proof.couple import Branch, OfState, on_all
-from rodproof.derivations.proof.couple_checks import TWISTED
-from rodproof.derivations.proof.couple_route import c, length, r_s
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
 from rodproof.derivations.proof.prover import DIGITS, ROUTE_POINTS, Identity, claims
-from rodproof.derivations.proof.thrust import numeric_strains
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import STRAINS, chiral_gap, iota
 from rodproof.derivations.theory import couple as theory

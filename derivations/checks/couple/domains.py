@@ -15,11 +15,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.exact.evaluate import context
-from rodproof.derivations.exact.field import Field
-from rodproof.derivations.notation import Chain, Prime
-from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.couple_route import (
+from rodproof.derivations.checks.couple.route import (
     Configuration,
     c,
     curvature,
@@ -40,6 +36,10 @@ from rodproof.derivations.proof.couple_route import (
     t,
     torsion,
 )
+from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.field import Field
+from rodproof.derivations.notation import Chain, Prime
+from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.proof.prover import DIGITS, ROUTE_POINTS, Identity, claims
 from rodproof.derivations.records import Confirmation, Decision

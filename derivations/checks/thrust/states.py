@@ -9,11 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.exact.evaluate import context
-from rodproof.derivations.exact.field import Field
-from rodproof.derivations.notation import Chain, Either, Every, Iff, Implies, Prime, instances
-from rodproof.derivations.proof import thrust as domains
-from rodproof.derivations.proof.equilibrium import (
+from rodproof.derivations.checks.equilibrium import (
     balance_residual,
     cross,
     curve,
@@ -21,6 +17,10 @@ from rodproof.derivations.proof.equilibrium import (
     frame,
     strains_of,
 )  # fmt: skip
+from rodproof.derivations.checks.thrust import domains
+from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.field import Field
+from rodproof.derivations.notation import Chain, Either, Every, Iff, Implies, Prime, instances
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point
 from rodproof.derivations.proof.prover import (
     DIGITS,

@@ -9,6 +9,12 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.tangents import (
+    UNIT_STRAINS,
+    WITH_ENERGY,
+    numerical_tangent,
+    simple_strains,
+)
 from rodproof.derivations.exact.evaluate import Evaluator, context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
@@ -24,12 +30,6 @@ from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import IllTyped, Meaning
 from rodproof.derivations.proof.prover import DIGITS, ROUTE_POINTS, Identity, claims
 from rodproof.derivations.proof.rules import _semidefinite
-from rodproof.derivations.proof.tangents import (
-    UNIT_STRAINS,
-    WITH_ENERGY,
-    numerical_tangent,
-    simple_strains,
-)
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import LOADS, STRAINS, chiral_gap, gamma, iota, p
 from rodproof.derivations.theory import constitutive

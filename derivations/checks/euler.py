@@ -17,17 +17,17 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.notation import Cross, Dot, Prime, Wstar, m, n
-from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.domains import ON_LOADS, _of_loads
-from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
-from rodproof.derivations.proof.orbits import (
+from rodproof.derivations.checks.domains import ON_LOADS, _of_loads
+from rodproof.derivations.checks.orbits import (
     Orbit,
     determinant_of,
     law_at,
     residuals_of,
     turned,
 )
+from rodproof.derivations.notation import Cross, Dot, Prime, Wstar, m, n
+from rodproof.derivations.proof import sampling
+from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
 from rodproof.derivations.symbols import CONSTANTS, LOADS, STRAINS, alpha, gamma, p, u3, v3, zeta
 from rodproof.derivations.theory import constitutive
 from rodproof.derivations.theory import euler as theory

@@ -6,8 +6,8 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.equilibrium import cross, dot
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.equilibrium import cross, dot
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.symbols import LOADS
 from rodproof.derivations.theory import euler as theory

@@ -16,11 +16,11 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.domains import _Numbers
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Every, ForAll, Iff, Q, W, chain, u, v
 from rodproof.derivations.proof import curves, sampling
-from rodproof.derivations.proof.domains import _Numbers
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
 from rodproof.derivations.proof.prover import DIGITS, Identity
 from rodproof.derivations.proof.vectors import REJECTED

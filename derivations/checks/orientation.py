@@ -13,12 +13,13 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks import kinematics
+from rodproof.derivations.checks.constitutive import _all_around
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, ForAll, Iff, Prime, instances
-from rodproof.derivations.proof import conditions, curves, kinematics, sampling
+from rodproof.derivations.proof import conditions, curves, sampling
 from rodproof.derivations.proof.conditions import Ensures, OrientationChain, SameCondition
-from rodproof.derivations.proof.constitutive import _all_around
 from rodproof.derivations.proof.implications import Implication, difference
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
 from rodproof.derivations.proof.prover import Identity, claims
