@@ -7,23 +7,25 @@ from __future__ import annotations
 
 import sympy as sp
 
-from rodproof.derivations.checks.thrust import domains
+from rodproof.derivations.checks.thrust import domains, points
 from rodproof.derivations.checks.thrust.branch import Determined, TwistedUnless, of_both_chiralities
-from rodproof.derivations.checks.thrust.domains import d, psi0, scalar_v, tangent
-from rodproof.derivations.checks.thrust.states import (
+from rodproof.derivations.checks.thrust.equations import (
     COUPLE_BALANCE,
     FLEXURE_1,
     FLEXURE_2,
     TWIST,
     Alternatives,
+    LinkByLink,
+    Vanish,
+)
+from rodproof.derivations.checks.thrust.points import d, psi0, scalar_v, tangent
+from rodproof.derivations.checks.thrust.states import (  # fmt: skip
     Both,
     InAllStates,
     InEquilibrium,
     Jointly,
-    LinkByLink,
     NamesStretch,
-    Vanish,
-)  # fmt: skip
+)
 from rodproof.derivations.notation import (
     Either,
     Every,
@@ -283,8 +285,8 @@ def _straight_configuration() -> tuple[Statement, ...]:
 def _chirality_and_limits() -> tuple[Statement, ...]:
     unsheared = equal(v[1], v[2], 0)
     states = tuple(part for m_ in domains.STRAIGHT for part in of_both_chiralities(m_))
-    sense, twist = domains.strand_sense, domains.strand_twist
-    helix = domains.strand_radius**2 * domains.strand_stretch * twist**5
+    sense, twist = points.strand_sense, points.strand_twist
+    helix = points.strand_radius**2 * points.strand_stretch * twist**5
     root = _D ** sp.Rational(-1, 2)
 
     def both(quantity: sp.Expr, value: sp.Expr) -> Every:

@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 from rodproof.derivations.checks.equilibrium import balance_residual, curve, frame, loads_of
-from rodproof.derivations.checks.thrust import domains
+from rodproof.derivations.checks.thrust import domains, numeric, points
 from rodproof.derivations.checks.thrust.branch import angle_is_function_of_thrust
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field
@@ -39,7 +39,7 @@ def test_weight_is_the_dual_form_over_the_thrust_squared():
     assert Field((chiral_gap,)).equal(
         theory.weight(sp.cos(theta)), theory.dual_form(sp.Integer(1), theta)
     )
-    near = theory.thrust_near_zero(domains.angle)
+    near = theory.thrust_near_zero(points.angle)
     assert Field(domains.BRANCH.positive).equal(near, domains.BRANCH.components[theory.N])
 
 
@@ -49,15 +49,15 @@ def test_angle_is_a_function_of_thrust():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_no_sheared_state_below_the_threshold(seed):
-    point = domains.sheared_constants(seed)
+    point = points.sheared_constants(seed)
     ctx = context(30)
     threshold = ctx.mpf(str(sp.N(theory.threshold().subs(point), 30)))
-    cosine = domains.numeric_cosine(point, threshold * ctx.mpf("1.001"), ctx)
+    cosine = numeric.cosine_at(point, threshold * ctx.mpf("1.001"), ctx)
     assert 0.9 < cosine < 1
     for polar in (0.001, 0.4, 1.2):  # r' is never along g_3
         force = threshold * ctx.mpf("0.999")
         load = [0, 0, 0, -force * ctx.sin(polar), 0, force * ctx.cos(polar)]
-        strain = domains.numeric_strains(point, load, ctx)
+        strain = numeric.strains_at(point, load, ctx)
         assert strain[3] * ctx.cos(polar) + (1 + strain[5]) * ctx.sin(polar) > 0
 
 
@@ -65,8 +65,8 @@ def _sheared_state(**broken):
     """A sheared state with some components multiplied by -1."""
     point, ctx, s = domains.BRANCH.sample(1), context(50), theory.s
     c = domains.BRANCH.components
-    twist = broken.get("u3", 1) * c[u3] * s + domains.psi0
-    d = [list(vector) for vector in euler_frame(sp.Integer(0), domains.angle, twist)]
+    twist = broken.get("u3", 1) * c[u3] * s + points.psi0
+    d = [list(vector) for vector in euler_frame(sp.Integer(0), points.angle, twist)]
     for name in ("d1", "d2"):
         k = int(name[1]) - 1
         d[k] = [broken.get(name, 1) * entry for entry in d[k]]
@@ -93,7 +93,7 @@ def test_loads_of_inverts_the_law():
     point = {**sampling.with_loads(2), gamma: sp.Integer(1)}
     ctx = context(50)
     load = [ctx.mpf(int(point[s].p)) / int(point[s].q) for s in constitutive.LOADS]
-    strain = domains.numeric_strains(point, load, ctx)
+    strain = numeric.strains_at(point, load, ctx)
     m, n = loads_of(strain[:3], [strain[3], strain[4], 1 + strain[5]], point, ctx)
     assert max(abs(a - b) for a, b in zip([*m, *n], load, strict=True)) < mpmath.mpf("1e-40")
 
@@ -110,11 +110,11 @@ def test_strains_past_the_limit_have_no_loads():
     [
         ("straight-u12", equal(u[2], u[2], 0)),
         ("sheared-tensile-state", positive(v[3])),
-        ("fN-inequality", chain(0, "<", domains.b / domains.c / 2, "<",
-                                domains.fN(sp.Integer(1)), "=", domains.fN(sp.Integer(1)))),
+        ("fN-inequality", chain(0, "<", points.b / points.c / 2, "<",
+                                points.fN(sp.Integer(1)), "=", points.fN(sp.Integer(1)))),
         ("moduli-condition-2-iff", STATEMENTS["moduli-condition-2-iff"].printed),
-        ("moduli-condition-1", Iff(positive(domains.c), positive(domains.c - 1),
-                                   positive(domains.c))),
+        ("moduli-condition-1", Iff(positive(points.c), positive(points.c - 1),
+                                   positive(points.c))),
         ("r-dot-g1", STATEMENTS["r-dot-g1"].printed),
         ("theta-alternatives", STATEMENTS["theta-alternatives"].printed),
         ("straight-rprime", STATEMENTS["straight-rprime"].printed),

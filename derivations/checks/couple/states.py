@@ -12,7 +12,7 @@ from rodproof.derivations.checks.couple import domains
 from rodproof.derivations.checks.couple.domains import Branch, OfState, on_all
 from rodproof.derivations.checks.couple.equations import TWISTED
 from rodproof.derivations.checks.couple.route import c, length, r_s
-from rodproof.derivations.checks.thrust.domains import numeric_strains
+from rodproof.derivations.checks.thrust.numeric import strains_at
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
@@ -200,7 +200,7 @@ def _route_far(couple: sp.Symbol) -> Callable[[Point, Any], Values]:
             size = sign * ctx.mpf(10) ** 400
             bent = [size * ctx.cos(turn), -size * ctx.sin(turn), 0]
             load = [0, 0, size] if couple == euler.M3 else bent
-            u1, u2, u3, _, _, dilatation = numeric_strains(point, [*load, 0, 0, 0], ctx)
+            u1, u2, u3, _, _, dilatation = strains_at(point, [*load, 0, 0, 0], ctx)
             far = dict(zip(STRAINS[:3], (u1, u2, u3), strict=True))
             far |= {STRAINS[5] - 1: dilatation, _FLEXURE: ctx.hypot(u1, u2)}
             found |= {LimitOf(strain, couple, target): value for strain, value in far.items()}

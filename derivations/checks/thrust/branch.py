@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.thrust import domains
+from rodproof.derivations.checks.thrust import domains, numeric, points
 from rodproof.derivations.checks.thrust.moduli import (
     a,
     at_point,
@@ -49,7 +49,7 @@ def angle_is_function_of_thrust() -> bool:
     inverse; below x_infinity P is negative, so that there is no N.
     """
     power = theory.inverse_thrust_power()
-    facts = (*domains.BRANCH_EXISTS, theory.weight())
+    facts = (*points.BRANCH_EXISTS, theory.weight())
     at_limit = theory.limiting_cosine()
     field = Field((*facts, theory.weight(at_limit)))
     return bool(
@@ -95,8 +95,8 @@ class Determined(OnTheBranch):
 @cache
 def taylor_of_thrust() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """N - N_thresh, dN/dtheta and half the second derivative, at theta = 0."""
-    thrust, at_zero = domains.BRANCH.components[N], {domains.angle: sp.Integer(0)}
-    slopes = thrust, *(sp.diff(thrust, domains.angle, k) / k for k in (1, 2))
+    thrust, at_zero = domains.BRANCH.components[N], {points.angle: sp.Integer(0)}
+    slopes = thrust, *(sp.diff(thrust, points.angle, k) / k for k in (1, 2))
     start, slope, second = (q.subs(at_zero) for q in slopes)
     return start - theory.threshold(), slope, second
 
@@ -109,7 +109,7 @@ class NearThreshold:
         if not isinstance(printed, Chain) or printed.relations != ("=",):
             return REJECTED
         left, right = printed.sides
-        if left != LimitOf((N - domains.N_thresh) / theta**2, theta, sp.Integer(0)):
+        if left != LimitOf((N - points.N_thresh) / theta**2, theta, sp.Integer(0)):
             return REJECTED
         value = domains.BRANCH.interpret(right)
         start, slope, wanted = taylor_of_thrust()
@@ -117,7 +117,7 @@ class NearThreshold:
             evaluate = numbers(domains.BRANCH, seed)
             if not abs(evaluate(value) - evaluate(wanted)) < 1e-30:
                 return Decision(False, False, "not the second derivative")
-        field = Field(domains.BRANCH_EXISTS)
+        field = Field(points.BRANCH_EXISTS)
         if field.is_zero(start) and field.is_zero(slope) and field.equal(value, wanted):
             return Decision(True, True, "Taylor's theorem with exact derivatives")
         return Decision(None, False, f"{DIGITS} digits")
@@ -128,7 +128,7 @@ class NearThreshold:
         for seed in range(ROUTE_POINTS):
             point = domains.BRANCH.sample(seed)
             tiny = ctx.mpf(10) ** -20
-            near, at = (domains.numeric_thrust(point, t, ctx) for t in (tiny, tiny**3))
+            near, at = (numeric.thrust_at(point, t, ctx) for t in (tiny, tiny**3))
             value = domains.BRANCH.evaluator(ctx, point)(printed.sides[1])
             worst = max(worst, float(abs((near - at) / tiny**2 / value - 1)))
         route = "N by a root search on the moment balance at theta = 1e-20"
@@ -260,7 +260,7 @@ class ClosedAngle:
             point = dict(self.sample(seed))
             if self.power is not None:
                 point[p] = sp.sympify(self.power)
-            wanted = domains.numeric_cosine(point, self.thrust(point, ctx), ctx)
+            wanted = numeric.cosine_at(point, self.thrust(point, ctx), ctx)
             found = domains.AT_INFINITY.evaluator(ctx, point)(cosine)
             worst = max(worst, float(abs(found - wanted)))
         route = "angle by a root search on the moment balance, K inverted numerically"
@@ -270,16 +270,16 @@ class ClosedAngle:
 def limiting_angle(left: sp.Expr) -> ClosedAngle:
     """arccos X with (c X)^2 = w(X) = a - c X^2: the limit N -> oo."""
     return ClosedAngle(
-        left=left, residual=lambda X: (c * X) ** 2 - (a - c * X**2), facts=domains.BRANCH_EXISTS,
-        below_one=(c - sp.sqrt(b)) * (c + sp.sqrt(b)), sample=domains.sheared_constants,
+        left=left, residual=lambda X: (c * X) ** 2 - (a - c * X**2), facts=points.BRANCH_EXISTS,
+        below_one=(c - sp.sqrt(b)) * (c + sp.sqrt(b)), sample=points.sheared_constants,
         thrust=lambda point, ctx: ctx.mpf(10) ** 60,
-        symbols=((domains.theta_hat_infinity, sp.acos(theory.limiting_cosine())),),
+        symbols=((points.theta_hat_infinity, sp.acos(theory.limiting_cosine())),),
     )  # fmt: skip
 
 
 def _above_threshold(seed: int) -> Point:
     """p = 2 and N = 1.5, 2 or 2.5 times the threshold, rounded to a rational number."""
-    point = {**domains.sheared_constants(seed), p: sp.Integer(2)}
+    point = {**points.sheared_constants(seed), p: sp.Integer(2)}
     threshold = float(theory.threshold().subs(point))
     return {**point, N: sp.Rational(int(997 * threshold * (1.5 + 0.5 * seed)), 997)}
 
@@ -288,8 +288,8 @@ def angle_at_p2() -> ClosedAngle:
     """arccos X with (c X)^2 = N^{-2} + w(X), for p = 2 and N > N_thresh."""
     gap = c**2 - b - N**-2  # N_thresh^{-2} - N^{-2}
     return ClosedAngle(
-        left=domains.theta_hat, residual=lambda X: (c * X) ** 2 - N**-2 - (a - c * X**2),
-        facts=(*domains.BRANCH_EXISTS, N, gap), below_one=gap, sample=_above_threshold,
+        left=points.theta_hat, residual=lambda X: (c * X) ** 2 - N**-2 - (a - c * X**2),
+        facts=(*points.BRANCH_EXISTS, N, gap), below_one=gap, sample=_above_threshold,
         power=sp.Integer(2), thrust=lambda point, ctx: ctx.mpf(int(point[N].p)) / int(point[N].q),
     )  # fmt: skip
 

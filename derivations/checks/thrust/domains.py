@@ -8,16 +8,53 @@ of that: they find N by a root search on the moment balance, with K inverted num
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.thrust.numeric import (
+    _number,
+    _route_at,
+    _route_f,
+    _route_far,
+    _route_straight,
+    cosine_at,
+    route_on_branch,
+    strains_at,
+    thrust_at,
+)
+from rodproof.derivations.checks.thrust.points import (
+    BRANCH_EXISTS,
+    SOFTER_IN_SHEAR,
+    N_thresh,
+    R,
+    _above,
+    _generic,
+    _on_the_branch,
+    _small_limits,
+    _small_points,
+    _small_states,
+    a,
+    angle,
+    b,
+    c,
+    delta,
+    fN,
+    psi0,
+    scalar_v,
+    strand_radius,
+    strand_sense,
+    strand_stretch,
+    strand_twist,
+    tension,
+    theta_hat,
+    theta_hat_infinity,
+    theta_Nk,
+    x_N,
+    x_Nk,
+)
 from rodproof.derivations.notation import LimitOf
-from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.symbols import (
     LOADS,
@@ -25,142 +62,15 @@ from rodproof.derivations.symbols import (
     beta,
     chiral_gap,
     eta,
-    gamma,
     iota,
     p,
     u3,
     v3,
-    zeta,
 )  # fmt: skip
 from rodproof.derivations.theory import euler
 from rodproof.derivations.theory import thrust as theory
 from rodproof.derivations.theory.frames import euler_frame, phi, psi, theta
 from rodproof.derivations.theory.thrust import N, s, x
-
-R = sp.Symbol("R", positive=True)  # |N|
-angle = sp.Symbol("vartheta", positive=True)  # the free angle of the branch
-delta = sp.Symbol("delta", positive=True)  # distance of N^{-p} from N_thresh^{-p}
-tension = sp.Symbol("n3", real=True)
-scalar_v = sp.Symbol("v", positive=True)
-psi0 = sp.Symbol(r"{\psi}(0)", real=True)
-N_thresh = sp.Symbol("N_thresh", positive=True)
-x_N = sp.Symbol("x_N", positive=True)
-x_Nk = sp.Symbol("x_{N_k}", positive=True)
-theta_Nk = sp.Symbol(r"{\theta}(N_k)", positive=True)
-theta_of_N = sp.Symbol(r"{\theta}(N_j)", real=True)
-strand_sense = sp.Symbol("h_strand", real=True)  # triple product of a strand's three derivatives
-strand_twist = sp.Symbol("tau", real=True)
-strand_radius, strand_stretch = sp.symbols("rho lambda", positive=True)
-theta_hat = sp.Symbol(r"\hat{\theta}", real=True)
-theta_infinity = sp.Symbol(r"{\theta}(\infty)", real=True)
-theta_hat_infinity = sp.Symbol(r"\hat{\theta}(\infty)", real=True)
-tangent = sp.IndexedBase("r'", real=True)  # components of r' in the fixed basis
-d = sp.IndexedBase("d", real=True)  # d[k, i] = d_k . g_i
-
-
-class fN(sp.Function):  # noqa: N801  the paper's name
-    """v_3 - 1 as a function of cos theta, `fN(x)`."""
-
-    nargs = 1
-
-    def _latex(self, printer: Any, exp: str | None = None) -> str:
-        return rf"f_N({printer._print(self.args[0])})"
-
-
-# -- what is positive -------------------------------------------------------------------------
-
-c, b, a = theory.softness(), theory.axial_compliance(), theory.shear_compliance()
-SOFTER_IN_SHEAR = (chiral_gap, c)
-BRANCH_EXISTS = (*SOFTER_IN_SHEAR, 1 + c, c - sp.sqrt(b), theory.threshold_power())
-
-# -- generic points ---------------------------------------------------------------------------
-
-
-@cache
-def _sheared_constants(seed: int) -> tuple[tuple[sp.Symbol, sp.Rational], ...]:
-    """Generic constants with gamma = 1 that meet both conditions on the moduli."""
-    point = {**sampling.constants(seed), gamma: sp.Integer(1)}
-    soft = float(b.subs(point))
-    compliance = soft + math.sqrt(soft) * (1.4 + 0.3 * seed)  # c > b^{1/2}
-    point[zeta] = sp.Rational(int(997 / math.sqrt(compliance)), 997)
-    return tuple(point.items())
-
-
-def sheared_constants(seed: int) -> Point:
-    """As a mapping."""
-    return dict(_sheared_constants(seed))
-
-
-def _generic(seed: int) -> dict[sp.Symbol, sp.Rational]:
-    """Generic constants and thrusts, with everything that a state may depend on."""
-    point = {**sampling.constants(seed), gamma: sp.Integer(1)}
-    more = {
-        R: (23, 31, 47),
-        N: (23, 31, 47),
-        theta: (11, 25, 40),
-        phi: (-9, 14, 31),
-        psi: (8, -13, 29),
-        psi0: (15, 4, -7),
-        s: (5, 9, 13),
-        x: (6, 13, 17),
-        strand_twist: (8, -11, 14),
-        strand_radius: (5, 7, 9),
-        strand_stretch: (23, 26, 15),
-    }
-    return point | {k: sp.Rational(v[seed % 3], 19) for k, v in more.items()}
-
-
-def _on_the_branch(seed: int) -> dict[sp.Symbol, sp.Rational]:
-    """Generic constants that meet the conditions, and an angle below the limiting one."""
-    point = sheared_constants(seed)
-    limit = math.acos(float(theory.limiting_cosine().subs(point)))
-    chosen = sp.Rational(int(997 * limit * (0.45 + 0.2 * (seed % 3))), 997)
-    return {**_generic(seed), **point, angle: chosen, x: sp.Rational(13 + 2 * seed, 19)}
-
-
-def _above(seed: int) -> dict[sp.Symbol, sp.Rational]:
-    """The distance of N^{-p} from its threshold, as a rational part of the latter."""
-    point = _on_the_branch(seed)
-    whole = float(theory.threshold_power().subs(point))
-    return {**point, delta: sp.Rational(int(whole * 1e9 * (0.2 + 0.25 * (seed % 3))), 10**9)}
-
-
-def _small(**others: object) -> tuple[Point, ...]:
-    """Small points: beta, eta, zeta, iota, p with rational b, and others given by name."""
-    rows = ((1, 2, 1, 0, 2), (2, 2, 1, 0, 2), (1, 1, 1, 0, 2), (1, 2, 1, 1, 2), (2, 1, 1, -1, 1))
-    names = {k.name: k for k in (R, N, theta, phi, psi, psi0, s, x, angle)}
-    given = {names[k]: sp.sympify(v) for k, v in others.items()}
-    keys = (beta, eta, zeta, iota, p)
-    return tuple({**dict(zip(keys, map(sp.Integer, row), strict=True)), **given} for row in rows)
-
-
-def _small_points() -> tuple[Point, ...]:
-    angles = {"theta": sp.pi / 6, "varphi": 0, "psi": 0, r"{\psi}(0)": 0, "s": 0}
-    return (
-        *_small(R=2, N=2, x=1, **angles),
-        *_small(R="3/2", N="3/2", x=1, **angles),
-        *_small(R="3/2", N="3/2", x="1/2", **angles),
-    )
-
-
-def _small_states() -> tuple[Point, ...]:
-    angles = {"theta": sp.pi / 6, "varphi": 0, "psi": 0, r"{\psi}(0)": 0, "s": 0}
-    rows = _small(R="3/4", x=1, vartheta=sp.pi / 6, **angles)
-    # b = 4, R = 2 sends v_3 = 1 - b F R below zero: p = 1 and beta^2 eta^2 - iota^2 = 1/4
-    extra = {beta: sp.Integer(1), eta: sp.Rational(1, 2), zeta: sp.Integer(1), iota: sp.Integer(0),
-             p: sp.Integer(1), R: sp.Integer(2), phi: sp.Integer(0), psi0: sp.Integer(0),
-             s: sp.Integer(0)}  # fmt: skip
-    return (*rows, extra)
-
-
-def _small_limits() -> tuple[Point, ...]:
-    """b = 2/75, a = 9/25, c = 1/3, so that the limiting cosine is 9/10; beta = 2 and beta = 1."""
-    return tuple(
-        {beta: sp.Integer(k), eta: sp.Rational(49, 8), zeta: sp.Rational(5, 3),
-         iota: sp.Rational(k, 8), p: sp.Integer(2)}
-        for k in (2, 1)
-    )  # fmt: skip
-
 
 # -- states as components ---------------------------------------------------------------------
 
@@ -184,144 +94,6 @@ def _components(
 
 def _f(thrust: sp.Expr) -> dict[type, Callable[..., sp.Expr]]:
     return {fN: lambda at: theory.dilatation(thrust, at)}
-
-
-# -- second routes ----------------------------------------------------------------------------
-
-
-def numeric_strains(point: Point, load: list[Any], ctx: Any) -> list[Any]:
-    """The law as it stands, with K inverted numerically: (1 + Q*^{p/2})^{-1/p} K^{-1} sigma."""
-    law = _Numbers(point, ctx)
-    power = law.c[p]
-    factor = (1 + law.dual(load) ** (power / 2)) ** (-1 / power)
-    return [factor * e for e in ctx.lu_solve(law.K, ctx.matrix(load))]
-
-
-def numeric_thrust(point: Point, polar: Any, ctx: Any) -> Any:
-    """N > 0 at which r' is along g_3 for the given angle, by a root search."""
-
-    def off_axis(log_thrust: Any) -> Any:
-        force = ctx.exp(log_thrust)
-        load = [0, 0, 0, -force * ctx.sin(polar), 0, force * ctx.cos(polar)]
-        strain = numeric_strains(point, load, ctx)
-        return strain[3] * ctx.cos(polar) + (1 + strain[5]) * ctx.sin(polar)
-
-    low, high = ctx.mpf(-20), ctx.mpf(60)
-    if not off_axis(low) * off_axis(high) < 0:
-        raise ValueError("no sheared state at this angle")
-    while high - low > 1:
-        middle = (low + high) / 2
-        low, high = (middle, high) if off_axis(low) * off_axis(middle) > 0 else (low, middle)
-    return ctx.exp(ctx.findroot(off_axis, (low, high), solver="anderson"))
-
-
-def numeric_cosine(point: Point, thrust: Any, ctx: Any) -> Any:
-    """cos theta of the sheared state under a given thrust, by a root search in the angle."""
-
-    def off_axis(polar: Any) -> Any:
-        load = [0, 0, 0, -thrust * ctx.sin(polar), 0, thrust * ctx.cos(polar)]
-        strain = numeric_strains(point, load, ctx)
-        return strain[3] * ctx.cos(polar) / ctx.sin(polar) + 1 + strain[5]
-
-    found = ctx.findroot(off_axis, (ctx.mpf(10) ** -10, ctx.pi / 2), solver="anderson")
-    return ctx.cos(found)
-
-
-def turned(ctx: Any, azimuth: Any, polar: Any, twist: Any) -> list[list[Any]]:
-    """d_1, d_2, d_3 by turning e_1, e_2 and g_3 one rotation after the other (Rodrigues)."""
-
-    def turn(vector: list[Any], axis: list[Any], by: Any) -> list[Any]:
-        along = ctx.fdot(zip(axis, vector, strict=True)) * (1 - ctx.cos(by))
-        across = [axis[i] * vector[j] - axis[j] * vector[i] for i, j in ((1, 2), (2, 0), (0, 1))]
-        return [ctx.cos(by) * v + ctx.sin(by) * w + along * k
-                for v, w, k in zip(vector, across, axis, strict=True)]  # fmt: skip
-
-    frame = [[ctx.mpf(int(i == k)) for i in range(3)] for k in range(3)]
-    for axis, by in ((2, azimuth), (1, polar), (2, twist)):
-        frame = [turn(vector, frame[axis], by) for vector in frame]
-    return frame
-
-
-def _state_numbers(point: Point, ctx: Any, thrust: Any, angles: tuple[Any, Any, Any]) -> Values:
-    """Strains by the numerical law in a frame that is turned numerically; r' from them."""
-    frame = turned(ctx, *angles)
-    force = [thrust * vector[2] for vector in frame]
-    strain = numeric_strains(point, [0, 0, 0, *force], ctx)
-    v = [strain[3], strain[4], 1 + strain[5]]
-    found: dict[sp.Basic, Any] = dict(zip(STRAINS, [*strain[:3], *v], strict=True))
-    found |= dict(zip(LOADS[3:], force, strict=True)) | {N: thrust}
-    largest = max(range(2), key=lambda k: abs(force[k]))
-    if force[largest]:
-        found[scalar_v] = v[largest] / force[largest]
-    for i in range(3):
-        found[sp.Symbol(f"r'{i + 1}", real=True)] = ctx.fsum(v[k] * frame[k][i] for k in range(3))
-        found |= {sp.Symbol(f"d{k + 1}{i + 1}", real=True): frame[k][i] for k in range(3)}
-    return found
-
-
-def _number(ctx: Any, value: sp.Rational) -> Any:
-    return ctx.mpf(int(value.p)) / int(value.q)
-
-
-def _route_at(sign: int, polar: Callable[[Any, Point], Any]) -> Callable[[Point, Any], Values]:
-    def route(point: Point, ctx: Any) -> Values:
-        angles = (_number(ctx, point[phi]), polar(ctx, point), _number(ctx, point[psi]))
-        return _state_numbers(point, ctx, sign * _number(ctx, point[R]), angles)
-
-    return route
-
-
-def _route_straight(sign: int) -> Callable[[Point, Any], Values]:
-    def route(point: Point, ctx: Any) -> Values:
-        thrust, azimuth = sign * _number(ctx, point[R]), _number(ctx, point[phi])
-        twist = numeric_strains(point, [0] * 5 + [thrust], ctx)[2]
-        psi_of_s = twist * _number(ctx, point[s]) + _number(ctx, point[psi0]) - azimuth
-        return _state_numbers(point, ctx, thrust, (azimuth, ctx.mpf(0), psi_of_s))
-
-    return route
-
-
-def route_on_branch(point: Point, ctx: Any) -> Values:
-    """N by the root search; the strains, the frame and r' from the numerical law."""
-    polar = _number(ctx, point[angle])
-    thrust = numeric_thrust(point, polar, ctx)
-    twist = numeric_strains(
-        point, [0] * 3 + [-thrust * ctx.sin(polar), 0, thrust * ctx.cos(polar)], ctx
-    )[2]
-    psi_of_s = twist * _number(ctx, point[s]) + _number(ctx, point[psi0])
-    found = dict(_state_numbers(point, ctx, thrust, (ctx.mpf(0), polar, psi_of_s)))
-    return found | {x_N: ctx.cos(polar), theta: polar, theta_hat: polar, theta_Nk: polar,
-                    x_Nk: ctx.cos(polar), fN(sp.cos(theta)): found[v3] - 1,
-                    fN(x_N): found[v3] - 1,
-                    N_thresh: numeric_thrust(point, ctx.mpf(10) ** -25, ctx)}  # fmt: skip
-
-
-def _route_f(point: Point, ctx: Any) -> Values:
-    """f_N(x) from the numerical law, its slope by a numerical derivative, its limit far away."""
-
-    def value(at: Any, thrust: Any) -> Any:
-        load = [0, 0, 0, thrust * ctx.sqrt(1 - at**2), 0, thrust * at]
-        return numeric_strains(point, load, ctx)[5].real
-
-    at, thrust = _number(ctx, point[x]), _number(ctx, point[N])
-    far = ctx.mpf(10) ** 60
-    return {
-        fN(x): value(at, thrust),
-        fN(sp.Integer(1)): value(ctx.mpf(1), thrust),
-        fN(sp.Integer(0)): value(ctx.mpf(0), thrust),
-        LimitOf(fN(sp.Integer(1)), N, sp.oo): value(ctx.mpf(1), far),
-        LimitOf(fN(x), N, sp.oo): value(at, far),
-    }
-
-
-def _route_far(point: Point, ctx: Any) -> Values:
-    """The straight strains under thrusts of 10^60 and -10^60."""
-    found: dict[sp.Basic, Any] = {}
-    for sign, target in ((1, sp.oo), (-1, -sp.oo)):
-        strain = numeric_strains(point, [0] * 5 + [sign * ctx.mpf(10) ** 60], ctx)
-        found[LimitOf(u3, N, target)] = strain[2]
-        found[LimitOf(v3 - 1, N, target)] = strain[5]
-    return found
 
 
 # -- the domains ------------------------------------------------------------------------------
@@ -392,7 +164,7 @@ def _route_last(point: Point, ctx: Any) -> Values:
     """The thrust at which the numerical law has v_3 = 0, by a root search."""
 
     def v_3(log_thrust: Any) -> Any:
-        return 1 + numeric_strains(point, [0] * 5 + [-ctx.exp(log_thrust)], ctx)[5]
+        return 1 + strains_at(point, [0] * 5 + [-ctx.exp(log_thrust)], ctx)[5]
 
     thrust = -ctx.exp(ctx.findroot(v_3, (ctx.mpf(-10), ctx.mpf(40)), solver="anderson"))
     return {last_thrust: thrust, v3_at_last: v_3(ctx.log(-thrust))}
@@ -452,7 +224,7 @@ BRANCH_FROM_ZERO = Meaning(
     components={N: theory.thrust_near_zero(theta), N_thresh: theory.threshold()},
     positive=BRANCH_EXISTS, sample=_on_the_branch, simple=_small_states,
     route=lambda point, ctx: {
-        LimitOf(N, theta, sp.Integer(0)): numeric_thrust(point, ctx.mpf(10) ** -40, ctx)
+        LimitOf(N, theta, sp.Integer(0)): thrust_at(point, ctx.mpf(10) ** -40, ctx)
     },
     route_name="N by a root search on the moment balance at theta = 1e-40",
 )  # fmt: skip
@@ -493,10 +265,10 @@ SOFT_COSINES = Meaning(
 
 def _route_beyond(sign: int) -> Callable[[Point, Any], Values]:
     def route(point: Point, ctx: Any) -> Values:
-        threshold = numeric_thrust(point, ctx.mpf(10) ** -40, ctx)  # the angle enters squared
+        threshold = thrust_at(point, ctx.mpf(10) ** -40, ctx)  # the angle enters squared
         power = threshold ** -_number(ctx, point[p]) - sign * _number(ctx, point[delta])
         thrust = power ** (-1 / _number(ctx, point[p]))
-        value = numeric_strains(point, [0] * 5 + [thrust], ctx)[5]
+        value = strains_at(point, [0] * 5 + [thrust], ctx)[5]
         return {N: thrust, fN(sp.Integer(1)): value}
 
     return route
@@ -516,7 +288,7 @@ def _beyond(sign: int) -> Meaning:
 
 
 def _route_at_infinity(point: Point, ctx: Any) -> Values:
-    cosine = numeric_cosine(point, ctx.mpf(10) ** 60, ctx)
+    cosine = cosine_at(point, ctx.mpf(10) ** 60, ctx)
     return {x: cosine, theta_hat_infinity: ctx.acos(cosine)}
 
 

@@ -11,8 +11,9 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.thrust import domains
-from rodproof.derivations.checks.thrust.states import REJECTED, Equation, all_of
+from rodproof.derivations.checks.thrust import domains, points
+from rodproof.derivations.checks.thrust.equations import Equation
+from rodproof.derivations.checks.thrust.states import REJECTED, all_of
 from rodproof.derivations.exact.evaluate import Evaluator, context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Iff, Implies
@@ -60,16 +61,16 @@ def moduli() -> tuple[Point, ...]:
     half = sp.Rational(1, 2)
     grid = itertools.product((1, 2), (1, 2, 3), (half, 2), (0, 1, -half), (2, 1))
     keys = (beta, eta, zeta, iota, p)
-    points = [{alpha: sp.Rational(7, 5), **dict(zip(keys, map(sp.sympify, row), strict=True))}
-              for row in grid]  # fmt: skip
+    found = [{alpha: sp.Rational(7, 5), **dict(zip(keys, map(sp.sympify, row), strict=True))}
+             for row in grid]  # fmt: skip
     for seed in range(6):
-        point = domains.sheared_constants(seed)
+        point = points.sheared_constants(seed)
         soft = float(b.subs(point))
         for off in (-0.4, -0.06, -0.01, 0.01, 0.06, 0.4, 2):
             borders = soft * (1 + off), soft + math.sqrt(soft) * (1 + off)  # c = 0, c = b^{1/2}
-            points += [{**point, zeta: sp.Rational(int(99991 / math.sqrt(k)), 99991)}
-                       for k in borders]  # fmt: skip
-    return tuple(q for q in points if chiral_gap.subs(q) > 0)
+            found += [{**point, zeta: sp.Rational(int(99991 / math.sqrt(k)), 99991)}
+                      for k in borders]  # fmt: skip
+    return tuple(q for q in found if chiral_gap.subs(q) > 0)
 
 
 @cache
