@@ -14,7 +14,7 @@ import sympy as sp
 
 from rodproof.codegen.kernel import Assignment, Gauge, Kernel, Limit, Output, symbol
 from rodproof.codegen.scene import Scene
-from rodproof.derivations.symbols import LOADS, STRAINS
+from rodproof.derivations.symbols import LOADS, STRAINS, p
 from rodproof.derivations.theory import constitutive as theory
 
 x, y = theory.x, theory.y
@@ -87,6 +87,21 @@ def load_weight() -> sp.Expr:
     return sp.simplify(x * sp.diff(sp.log(load_factor()), x))
 
 
+def load_factor_at_loads() -> sp.Expr:
+    """y/x as a function of the load radius y."""
+    return 1 / strain_factor()
+
+
+def load_weight_at_loads() -> sp.Expr:
+    """d log(y/x)/d log x, x^p/(1 - x^p), as a function of the load radius y."""
+    return load_weight().subs(x, theory.radial_law().strain)
+
+
+def limit_gap() -> sp.Expr:
+    """1 - x^p, the distance to the strain limit, as a function of the load radius y."""
+    return 1 - theory.radial_law().strain ** p
+
+
 def lower_strains() -> Kernel:
     """u = dW*/dm and v = e3 + dW*/dn (eq:uconst to eq:v3const)."""
     rest = (0, 0, 0, 0, 0, 1)
@@ -97,6 +112,13 @@ def lower_strains() -> Kernel:
     )
     body = (*_load_form(), _load_factor(), *small)
     return Kernel("strains", LOAD_NAMES, body, outputs, LOAD_GAUGE)
+
+
+def lower_strains_and_gap() -> Kernel:
+    """The strains, and how far they are from the limit, which they say no more when near it."""
+    strains = lower_strains()
+    output = Output("limit_gap", (), limit_gap(), ("strain-limit",))
+    return replace(strains, name="strains_and_gap", outputs=(*strains.outputs, output))
 
 
 def lower_loads() -> Kernel:
@@ -152,6 +174,21 @@ def lower_stiffness() -> Kernel:
 
     outputs = _symmetric("stiff", entry, lambda i, j: (HESSIAN_STATEMENTS[i][j],))
     return Kernel("stiffness", STRAIN_NAMES, body, outputs, None, LIMIT)
+
+
+def lower_stiffness_at_loads() -> Kernel:
+    """D^2 W at the strains of these loads, eps = (x/y) K^{-1} sigma: so K eps/x is sigma/y."""
+    factor_at_loads = Assignment("factor", load_factor_at_loads(), ("strain-limit",), "harden")
+    weight = Assignment("share", load_weight_at_loads())
+    along = _named("t", tuple(load / y for load in LOADS))
+    body = (*_load_form(), factor_at_loads, weight, *along)
+
+    def entry(i: int, j: int) -> sp.Expr:
+        rank_one = weight.symbol * along[i].symbol * along[j].symbol
+        return factor * (theory.stiffness_at_rest()[i, j] + rank_one)
+
+    outputs = _symmetric("stiff", entry, lambda i, j: (HESSIAN_STATEMENTS[i][j],))
+    return Kernel("stiffness_at_loads", LOAD_NAMES, body, outputs, LOAD_GAUGE)
 
 
 def lower_loads_and_stiffness() -> Kernel:
@@ -212,4 +249,6 @@ LOWER: dict[str, Callable[[], Kernel]] = {
     "stiffness": lower_stiffness,
     "loads_and_stiffness": lower_loads_and_stiffness,
     "compliance": lower_compliance,
+    "strains_and_gap": lower_strains_and_gap,
+    "stiffness_at_loads": lower_stiffness_at_loads,
 }

@@ -20,7 +20,13 @@ from typing import Any
 from rodproof.derivations.symbols import CONSTANTS, LOADS, STRAINS
 from rodproof.derivations.theory import constrained
 
-FUNCTIONS_OF_LOADS = ("strains", "complementary_energy", "compliance")
+FUNCTIONS_OF_LOADS = (
+    "strains",
+    "strains_and_gap",
+    "complementary_energy",
+    "compliance",
+    "stiffness_at_loads",
+)
 FUNCTIONS = (
     "strains",
     "loads",
@@ -29,7 +35,11 @@ FUNCTIONS = (
     "stiffness",
     "loads_and_stiffness",
     "compliance",
+    "strains_and_gap",
+    "stiffness_at_loads",
 )
+#: Where loads are declared zero the strains are not free, and nothing is a derivative by them.
+BY_STRAINS = ("loads", "stored_energy", "stiffness", "loads_and_stiffness", "stiffness_at_loads")
 CONSTANT_NAMES = ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p")
 LOAD_NAMES = tuple(s.name for s in LOADS)
 STRAIN_NAMES = tuple(s.name for s in STRAINS)
@@ -189,10 +199,11 @@ class Scene:
                 raise SceneError(f"scene {self.name}: load {load} {why}")
         if not kept:
             raise SceneError(f"scene {self.name}: the constraints leave nothing that moves")
-        of_strains = [f for f in self.functions if f not in FUNCTIONS_OF_LOADS]
+        of_strains = [f for f in self.functions if f in BY_STRAINS]
         if of_strains and self.loads and set(self.loads) != set(left):
+            kind = "derivative by" if of_strains[0] in FUNCTIONS_OF_LOADS else "function of"
             raise SceneError(
-                f"scene {self.name}: {of_strains[0]} is a function of the strains, which are not "
+                f"scene {self.name}: {of_strains[0]} is a {kind} the strains, which are not "
                 f"free where loads are zero; leave out loads, or ask for {FUNCTIONS_OF_LOADS[0]}"
             )
 

@@ -65,6 +65,9 @@ def step_text(step: str, scene: Scene) -> str:
         "stiffen": "Load over strain, gamma (1 - x^p)^(-1/p), by the growth x^p/(1 - x^p), x^2 = Q."
         if powers
         else "Load over strain, gamma (1 - Q)^(-1/2).",
+        "harden": "Load over strain, (gamma^p + y^p)^(1/p), after its rise (y/gamma)^(p/2)."
+        if powers
+        else "Load over strain, (gamma^2 + y^2)^(1/2), after its rise y/gamma.",
     }[step]
 
 
@@ -113,6 +116,8 @@ class _Words:
             "stiffness": {"stiff": matrix},
             "loads_and_stiffness": {g.array: g.head for g in self.load_groups} | {"stiff": matrix},
             "compliance": {"soft": matrix},
+            "strains_and_gap": {g.array: g.head for g in self.strain_groups} | {"limit_gap": ()},
+            "stiffness_at_loads": {"stiff": matrix},
         }
         about, more = self._about(kernel, matrix)
         label = self._labels(kernel)
@@ -130,6 +135,8 @@ class _Words:
     def _about(self, kernel: Kernel, matrix: tuple[int, ...]) -> tuple[str, list[str]]:
         """The first line of a docstring, and what follows the inputs."""
         loads, strains = _names(self.load_groups), _names(self.own_strains)
+        x_p = "Q" if self.square else "Q^(p/2)"
+        one = shape_text((), self.scene.layout)
         shape = shape_text(matrix, self.scene.layout)
         trailing = "with the trailing shape"
         if kernel.name == "strains":
@@ -137,6 +144,11 @@ class _Words:
             rest = ", ".join(_at_rest(g) for g in self.strain_groups)
             answer = f"Strains {_names(self.strain_groups)} under the loads {loads} ($label)."
             return answer, [f"Answers {made}; at rest {rest}."]
+        if kernel.name == "strains_and_gap":
+            made = self._listed(self.strain_groups)
+            first = f"Strains {_names(self.strain_groups)} under the loads {loads}, and 1 - {x_p}."
+            more = "plain: near the limit\n    it says what the strains no longer can."
+            return first, [f"Answers {made}, and the gap {one} {more}"]
         if kernel.name == "loads":
             made = self._listed(self.load_groups)
             near = "Near the limit the strains hardly determine the loads."
@@ -161,6 +173,10 @@ class _Words:
         if kernel.name == "stiffness":
             kind = "symmetric positive definite (Section 3.4)"
             return f"Stiffness {_per(loads, strains)}, {shape}, {kind}.", [order]
+        if kernel.name == "stiffness_at_loads":
+            first = f"Stiffness {_per(loads, strains)}, {shape}, at the strains of these loads."
+            more = "The inverse of the compliance; it holds where strains no longer tell the loads."
+            return first, [order, more]
         kind = "the inverse of the stiffness at these loads"
         if self.scene.loads:
             kind = "symmetric positive definite (Section 3.4)"
@@ -177,6 +193,13 @@ class _Words:
         if name == "loads":
             f = "(1 - Q)^(-1/2)" if self.square else "(1 - Q^(p/2))^(-1/p)"
             return f"{loads} = gamma {f} K {own}."
+        if name == "strains_and_gap":
+            power = "2" if self.square else "p"
+            gap = f"gamma^{power}/(gamma^{power} + {'Q*' if self.square else 'Q*^(p/2)'})"
+            return f"The strains, and 1 - {'Q' if self.square else 'Q^(p/2)'} = {gap}."
+        if name == "stiffness_at_loads":
+            rise = "y/gamma" if self.square else "(y/gamma)^(p/2)"
+            return f"D^2 W = factor (K + h h^T), h = {rise} {loads}/y, y^2 = Q*."
         if name == "stored_energy" and self.square:
             return "W = gamma (1 - (1 - Q)^(1/2)), as gamma Q/(1 + (1 - Q)^(1/2))."
         if name == "stored_energy":

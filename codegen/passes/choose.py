@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from rodproof.codegen.kernel import Assignment, Kernel
 from rodproof.codegen.live import live, substitution
 from rodproof.codegen.passes import stabilise as general
+from rodproof.codegen.passes import stabilise_at_loads as at_loads
 from rodproof.codegen.passes import stabilise_p2 as square
 from rodproof.codegen.passes.stabilise import Rule, apply
 from rodproof.codegen.scene import Scene
@@ -53,6 +54,10 @@ def _strains(case: Case) -> tuple[Rule, ...]:
     return (general.COMPLETE_DUAL_FORM, scale, general.REDUCE_STRAINS)
 
 
+def _strains_and_gap(case: Case) -> tuple[Rule, ...]:
+    return (at_loads.KEEP_GAP_SQUARE if case.square else at_loads.KEEP_GAP, *_strains(case))
+
+
 def _loads(case: Case) -> tuple[Rule, ...]:
     grow = square.GROW_LOAD_FACTOR if case.square else general.GROW_LOAD_FACTOR
     return (general.COMPLETE_FORM, grow, general.REDUCE_LOADS)
@@ -93,6 +98,15 @@ def _stiffness(case: Case) -> tuple[Rule, ...]:
     )
 
 
+def _stiffness_at_loads(case: Case) -> tuple[Rule, ...]:
+    return (
+        general.COMPLETE_DUAL_FORM,
+        at_loads.GROW_BY_SQUARE if case.square else at_loads.GROW_WITH_LOAD,
+        at_loads.SCALE_LOAD_ROOT if case.square else at_loads.SCALE_LOAD_FACTOR,
+        at_loads.SPREAD_WEIGHT,
+    )
+
+
 def _loads_and_stiffness(case: Case) -> tuple[Rule, ...]:
     complete, *rest = _stiffness(case)
     return (complete, general.REDUCE_LOADS, *rest)
@@ -106,4 +120,6 @@ CHAINS: dict[str, Callable[[Case], tuple[Rule, ...]]] = {
     "stiffness": _stiffness,
     "loads_and_stiffness": _loads_and_stiffness,
     "compliance": _compliance,
+    "strains_and_gap": _strains_and_gap,
+    "stiffness_at_loads": _stiffness_at_loads,
 }

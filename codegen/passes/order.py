@@ -8,7 +8,7 @@ from rodproof.codegen.kernel import Assignment, Kernel, KernelError
 
 #: Steps of a function in the order in which they run; assignments without a step come around them
 #: as their definitions demand.
-STEPS = ("reduce_loads", "reduce_strains", "soften", "stiffen")
+STEPS = ("reduce_loads", "reduce_strains", "soften", "stiffen", "harden")
 
 
 def order(kernel: Kernel) -> Kernel:

@@ -205,6 +205,11 @@ SPLIT_STRAIN_WEIGHT = Rule(
     "gamma^p and y^p overflow or underflow",
 )
 
+#: What the weight leaves, gamma^p/(gamma^p + y^p) = 1 - x^p: the distance to the strain limit.
+REMAIN = Assignment(
+    "remain", sp.Piecewise((1, y <= gamma), (power, True), evaluate=False) / (1 + power)
+)
+
 STIFFEN_DEFINITIONS = (
     Assignment(
         "growth",
@@ -330,9 +335,7 @@ def complement_compliance(
         _complements(coupling=coupling),
         (
             *soften,
-            Assignment(
-                "remain", sp.Piecewise((1, y <= gamma), (power, True), evaluate=False) / (1 + power)
-            ),
+            REMAIN,
             Assignment("per_size", 1 / size),
             *(
                 Assignment(name, symbol("per_size") * (reduced + FLOORS[first].get(name, 0)))

@@ -6,7 +6,8 @@ Without the loads n1, n2, n3; so v1 = 0, v2 = 0; v3 follows by the coupling.
 
 Statements it rests on (paper label, verdict; as corrected if refuted): qstar-form Section 3.1
 refuted; const-u-mu eq:uconst proved; const-u-3 eq:u3const proved; const-v-3 eq:v3const proved;
-wstar-definition eq:compenergy proved; wstar-gradient Section 3.1 proved.
+wstar-definition eq:compenergy proved; wstar-gradient Section 3.1 proved; strain-limit
+eq:strainlimiting proved.
 
 Domain: loads with finite Q*^(1/2).
 
@@ -14,6 +15,7 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     strains                39    4    0   14
     complementary_energy   34    6    1   11
     compliance             80    4    0   26
+    strains_and_gap        43    4    0   15
 """
 
 from __future__ import annotations
@@ -30,12 +32,13 @@ from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
+Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
 BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
-HEADS = {"m": (3,), "u": (3,), "v3": (), "w_star": (), "soft": (3, 3)}
+HEADS = {"m": (3,), "u": (3,), "v3": (), "w_star": (), "soft": (3, 3), "limit_gap": ()}
 
 
 @dataclass(frozen=True)
@@ -344,3 +347,31 @@ def compliance(m: ArrayLike, constants: Constants, out: Array | None = None) -> 
     """
     (soft,) = _apply(_compliance, {"m": m}, constants, ("soft",), out)
     return soft
+
+
+def _strains_and_gap(loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array) -> None:
+    """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, _, dilatation, twist = values
+    _, power, factor = _soften(y, c)
+    reach = factor * y / size
+    bend = c.per_alpha * reach
+    turn = c.per_beta * reach
+    extend = c.per_eta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    np.multiply(bend, mu_1, out=u[0])
+    np.multiply(bend, mu_2, out=u[1])
+    np.multiply(turn, twist, out=u[2])
+    np.add(dilatation * extend, 1, out=v3)
+    limit_gap[...] = remain
+
+
+def strains_and_gap(m: ArrayLike, constants: Constants, out: Triple | None = None) -> Triple:
+    """Strains u, v3 under the loads m, and 1 - Q^(p/2).
+
+    m (3, ...) in force times length, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, v3 (...) plain, and the gap (...) plain: near the limit
+    it says what the strains no longer can.
+    """
+    u, v3, limit_gap = _apply(_strains_and_gap, {"m": m}, constants, ("u", "v3", "limit_gap"), out)
+    return u, v3, limit_gap

@@ -21,6 +21,8 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     stiffness              71    4    0   21
     loads_and_stiffness    78    4    0   24
     compliance            109    4    0   31
+    strains_and_gap        45    4    0   15
+    stiffness_at_loads     73    4    0   18
 """
 
 from __future__ import annotations
@@ -46,7 +48,7 @@ TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
 HEADS = {
     "m": (3,), "n3": (), "u": (3,), "v3": (), "w": (), "w_star": (), "stiff": (4, 4),
-    "soft": (4, 4),
+    "soft": (4, 4), "limit_gap": (),
 }
 
 
@@ -195,6 +197,16 @@ def _stiffen(q: Array, c: Constants) -> Rows:
     depth = np.log1p(growth)
     factor = c.gamma * np.exp(depth / c.p)
     return growth, depth, factor
+
+
+def _harden(y: Array, c: Constants) -> Rows:
+    """Load over strain, (gamma^p + y^p)^(1/p), after its rise (y/gamma)^(p/2)."""
+    tiny = TINY[y.dtype]
+    rise = np.exp(0.5 * c.p * np.log(np.maximum(tiny, y / c.gamma)))
+    half = np.minimum(rise, 1 / np.maximum(rise, tiny))
+    power = half**2
+    factor = np.exp(np.log1p(power) / c.p) * np.maximum(y, c.gamma)
+    return rise, factor
 
 
 def _exponent(rows: Rows) -> Array:
@@ -585,3 +597,73 @@ def compliance(
     """
     (soft,) = _apply(_compliance, {"m": m, "n3": n3}, constants, ("soft",), out)
     return soft
+
+
+def _strains_and_gap(loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array) -> None:
+    """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, _, dilatation, twist, _ = values
+    _, power, factor = _soften(y, c)
+    reach = factor * y / size
+    bend = c.per_alpha * reach
+    turn = c.per_beta * reach
+    extend = c.per_eta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    np.multiply(bend, mu_1, out=u[0])
+    np.multiply(bend, mu_2, out=u[1])
+    np.multiply(turn, twist, out=u[2])
+    np.add(dilatation * extend, 1, out=v3)
+    limit_gap[...] = remain
+
+
+def strains_and_gap(
+    m: ArrayLike, n3: ArrayLike, constants: Constants, out: Triple | None = None
+) -> Triple:
+    """Strains u, v3 under the loads m, n3, and 1 - Q^(p/2).
+
+    m (3, ...) in force times length, n3 (...) in force, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, v3 (...) plain, and the gap (...) plain: near the limit
+    it says what the strains no longer can.
+    """
+    u, v3, limit_gap = _apply(
+        _strains_and_gap, {"m": m, "n3": n3}, constants, ("u", "v3", "limit_gap"), out
+    )
+    return u, v3, limit_gap
+
+
+def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
+    """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m, n3)/y, y^2 = Q*."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, mu_3, _, _, nu_3 = values
+    rise, factor = _harden(y, c)
+    rise_per_size = rise / size
+    bend_rise = c.alpha * rise_per_size
+    turn_rise = c.beta * rise_per_size
+    extend_rise = c.eta * rise_per_size
+    h = np.empty((4, y.size), y.dtype)
+    np.multiply(bend_rise, mu_1, out=h[0])
+    np.multiply(bend_rise, mu_2, out=h[1])
+    np.multiply(mu_3, turn_rise, out=h[2])
+    np.multiply(extend_rise, nu_3, out=h[3])
+    for i in range(4):
+        np.multiply(factor * h[i], h[i:], out=stiff[i, i:])
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.alpha**2 * factor
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 3] += c.iota * factor
+    stiff[3, 3] += c.eta**2 * factor
+    for i in range(1, 4):
+        stiff[i, :i] = stiff[:i, i]
+
+
+def stiffness_at_loads(
+    m: ArrayLike, n3: ArrayLike, constants: Constants, out: Array | None = None
+) -> Array:
+    """Stiffness d(m, n3)/d(u, v3), (4, 4, ...), at the strains of these loads.
+
+    m (3, ...) in force times length, n3 (...) in force, with Q*^(1/2) finite.
+    Rows and columns are ordered (m1, m2, m3, n3) and (u1, u2, u3, v3).
+    The inverse of the compliance; it holds where strains no longer tell the loads.
+    """
+    (stiff,) = _apply(_stiffness_at_loads, {"m": m, "n3": n3}, constants, ("stiff",), out)
+    return stiff

@@ -23,6 +23,8 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     stiffness             107    0    0   27
     loads_and_stiffness   117    0    0   31
     compliance            159    0    0   39
+    strains_and_gap        52    0    0   18
+    stiffness_at_loads    107    0    0   23
 """
 
 from __future__ import annotations
@@ -46,7 +48,7 @@ BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 HEADS = {
     "m": (3,), "n": (3,), "u": (3,), "v": (3,), "w": (), "w_star": (), "stiff": (6, 6),
-    "soft": (6, 6),
+    "soft": (6, 6), "limit_gap": (),
 }
 
 
@@ -150,6 +152,16 @@ def _stiffen(q: Array, c: Constants) -> Rows:
     root = np.sqrt(left)
     factor = c.gamma / root
     return left, root, factor
+
+
+def _harden(y: Array, c: Constants) -> Rows:
+    """Load over strain, (gamma^2 + y^2)^(1/2), after its rise y/gamma."""
+    tiny = TINY[y.dtype]
+    rise = y / c.gamma
+    half = np.minimum(rise, 1 / np.maximum(rise, tiny))
+    power = half**2
+    factor = np.sqrt(power + 1) * np.maximum(y, c.gamma)
+    return rise, factor
 
 
 def _exponent(rows: Rows) -> Array:
@@ -536,3 +548,81 @@ def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | No
     """
     (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, ("soft",), out)
     return soft
+
+
+def _strains_and_gap(loads: Rows, c: Constants, u: Array, v: Array, limit_gap: Array) -> None:
+    """The strains, and 1 - Q = gamma^2/(gamma^2 + Q*)."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
+    power, factor = _soften(y, c)
+    reach = factor * y / size
+    bend = c.per_alpha * reach
+    turn = c.per_beta * reach
+    shear = c.per_zeta * reach
+    extend = c.per_eta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    np.multiply(bend, mu_1, out=u[0])
+    np.multiply(bend, mu_2, out=u[1])
+    np.multiply(turn, twist, out=u[2])
+    np.multiply(nu_1, shear, out=v[0])
+    np.multiply(nu_2, shear, out=v[1])
+    np.add(dilatation * extend, 1, out=v[2])
+    limit_gap[...] = remain
+
+
+def strains_and_gap(
+    m: ArrayLike, n: ArrayLike, constants: Constants, out: Triple | None = None
+) -> Triple:
+    """Strains u, v under the loads m, n, and 1 - Q.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, v (3, ...) plain, and the gap (...) plain: near the limit
+    it says what the strains no longer can.
+    """
+    u, v, limit_gap = _apply(
+        _strains_and_gap, {"m": m, "n": n}, constants, ("u", "v", "limit_gap"), out
+    )
+    return u, v, limit_gap
+
+
+def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
+    """D^2 W = factor (K + h h^T), h = y/gamma (m, n)/y, y^2 = Q*."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, mu_3, nu_1, nu_2, _, _, nu_3 = values
+    rise, factor = _harden(y, c)
+    rise_per_size = rise / size
+    bend_rise = c.alpha * rise_per_size
+    turn_rise = c.beta * rise_per_size
+    shear_rise = c.zeta * rise_per_size
+    extend_rise = c.eta * rise_per_size
+    h = np.empty((6, y.size), y.dtype)
+    np.multiply(bend_rise, mu_1, out=h[0])
+    np.multiply(bend_rise, mu_2, out=h[1])
+    np.multiply(mu_3, turn_rise, out=h[2])
+    np.multiply(nu_1, shear_rise, out=h[3])
+    np.multiply(nu_2, shear_rise, out=h[4])
+    np.multiply(extend_rise, nu_3, out=h[5])
+    for i in range(6):
+        np.multiply(factor * h[i], h[i:], out=stiff[i, i:])
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.alpha**2 * factor
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 5] += c.iota * factor
+    stiff[3, 3] += c.zeta**2 * factor
+    stiff[4, 4] += c.zeta**2 * factor
+    stiff[5, 5] += c.eta**2 * factor
+    for i in range(1, 6):
+        stiff[i, :i] = stiff[:i, i]
+
+
+def stiffness_at_loads(
+    m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None
+) -> Array:
+    """Stiffness d(m, n)/d(u, v), (6, 6, ...), at the strains of these loads.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Rows and columns are ordered (m1, m2, m3, n1, n2, n3) and (u1, u2, u3, v1, v2, v3).
+    The inverse of the compliance; it holds where strains no longer tell the loads.
+    """
+    (stiff,) = _apply(_stiffness_at_loads, {"m": m, "n": n}, constants, ("stiff",), out)
+    return stiff

@@ -21,6 +21,8 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     stiffness              46    4    0   15
     loads_and_stiffness    51    4    0   17
     compliance             65    4    0   22
+    strains_and_gap        32    4    0   12
+    stiffness_at_loads     50    4    0   14
 """
 
 from __future__ import annotations
@@ -43,7 +45,9 @@ Inputs = dict[str, ArrayLike]
 BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
-HEADS = {"m": (3,), "u": (3,), "w": (), "w_star": (), "stiff": (3, 3), "soft": (3, 3)}
+HEADS = {
+    "m": (3,), "u": (3,), "w": (), "w_star": (), "stiff": (3, 3), "soft": (3, 3), "limit_gap": (),
+}
 
 
 @dataclass(frozen=True)
@@ -139,6 +143,16 @@ def _stiffen(q: Array, c: Constants) -> Rows:
     depth = np.log1p(growth)
     factor = c.gamma * np.exp(depth / c.p)
     return growth, depth, factor
+
+
+def _harden(y: Array, c: Constants) -> Rows:
+    """Load over strain, (gamma^p + y^p)^(1/p), after its rise (y/gamma)^(p/2)."""
+    tiny = TINY[y.dtype]
+    rise = np.exp(0.5 * c.p * np.log(np.maximum(tiny, y / c.gamma)))
+    half = np.minimum(rise, 1 / np.maximum(rise, tiny))
+    power = half**2
+    factor = np.exp(np.log1p(power) / c.p) * np.maximum(y, c.gamma)
+    return rise, factor
 
 
 def _exponent(rows: Rows) -> Array:
@@ -490,3 +504,61 @@ def compliance(m: ArrayLike, constants: Constants, out: Array | None = None) -> 
     """
     (soft,) = _apply(_compliance, {"m": m}, constants, ("soft",), out)
     return soft
+
+
+def _strains_and_gap(loads: Rows, c: Constants, u: Array, limit_gap: Array) -> None:
+    """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, mu_3 = values
+    _, power, factor = _soften(y, c)
+    reach = factor * y / size
+    bend = c.per_alpha * reach
+    turn = c.per_beta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    np.multiply(bend, mu_1, out=u[0])
+    np.multiply(bend, mu_2, out=u[1])
+    np.multiply(mu_3, turn, out=u[2])
+    limit_gap[...] = remain
+
+
+def strains_and_gap(m: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+    """Strains u under the loads m, and 1 - Q^(p/2).
+
+    m (3, ...) in force times length, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, and the gap (...) plain: near the limit
+    it says what the strains no longer can.
+    """
+    u, limit_gap = _apply(_strains_and_gap, {"m": m}, constants, ("u", "limit_gap"), out)
+    return u, limit_gap
+
+
+def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
+    """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) m/y, y^2 = Q*."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, mu_3 = values
+    rise, factor = _harden(y, c)
+    rise_per_size = rise / size
+    bend_rise = c.alpha * rise_per_size
+    turn_rise = c.beta * rise_per_size
+    h = np.empty((3, y.size), y.dtype)
+    np.multiply(bend_rise, mu_1, out=h[0])
+    np.multiply(bend_rise, mu_2, out=h[1])
+    np.multiply(mu_3, turn_rise, out=h[2])
+    for i in range(3):
+        np.multiply(factor * h[i], h[i:], out=stiff[i, i:])
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.alpha**2 * factor
+    stiff[2, 2] += c.beta**2 * factor
+    for i in range(1, 3):
+        stiff[i, :i] = stiff[:i, i]
+
+
+def stiffness_at_loads(m: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+    """Stiffness d m/d u, (3, 3, ...), at the strains of these loads.
+
+    m (3, ...) in force times length, with Q*^(1/2) finite.
+    Rows and columns are ordered (m1, m2, m3) and (u1, u2, u3).
+    The inverse of the compliance; it holds where strains no longer tell the loads.
+    """
+    (stiff,) = _apply(_stiffness_at_loads, {"m": m}, constants, ("stiff",), out)
+    return stiff

@@ -21,6 +21,8 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     stiffness              48    4    0   17
     loads_and_stiffness    54    4    0   20
     compliance             65    4    0   22
+    strains_and_gap        34    4    0   13
+    stiffness_at_loads     51    4    0   15
 """
 
 from __future__ import annotations
@@ -46,7 +48,7 @@ TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
 HEADS = {
     "m2": (), "n": (2,), "u2": (), "v": (2,), "w": (), "w_star": (), "stiff": (3, 3),
-    "soft": (3, 3),
+    "soft": (3, 3), "limit_gap": (),
 }
 
 
@@ -146,6 +148,16 @@ def _stiffen(q: Array, c: Constants) -> Rows:
     depth = np.log1p(growth)
     factor = c.gamma * np.exp(depth / c.p)
     return growth, depth, factor
+
+
+def _harden(y: Array, c: Constants) -> Rows:
+    """Load over strain, (gamma^p + y^p)^(1/p), after its rise (y/gamma)^(p/2)."""
+    tiny = TINY[y.dtype]
+    rise = np.exp(0.5 * c.p * np.log(np.maximum(tiny, y / c.gamma)))
+    half = np.minimum(rise, 1 / np.maximum(rise, tiny))
+    power = half**2
+    factor = np.exp(np.log1p(power) / c.p) * np.maximum(y, c.gamma)
+    return rise, factor
 
 
 def _exponent(rows: Rows) -> Array:
@@ -517,3 +529,69 @@ def compliance(
     """
     (soft,) = _apply(_compliance, {"m2": m2, "n": n}, constants, ("soft",), out)
     return soft
+
+
+def _strains_and_gap(loads: Rows, c: Constants, u2: Array, v: Array, limit_gap: Array) -> None:
+    """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_2, nu_1, nu_3 = values
+    _, power, factor = _soften(y, c)
+    reach = factor * y / size
+    bend = c.per_alpha * reach
+    shear = c.per_zeta * reach
+    extend = c.per_eta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    np.multiply(bend, mu_2, out=u2)
+    np.multiply(nu_1, shear, out=v[0])
+    np.add(extend * nu_3, 1, out=v[1])
+    limit_gap[...] = remain
+
+
+def strains_and_gap(
+    m2: ArrayLike, n: ArrayLike, constants: Constants, out: Triple | None = None
+) -> Triple:
+    """Strains u2, v under the loads m2, n, and 1 - Q^(p/2).
+
+    m2 (...) in force times length, n (2, ...) in force (n1 and n3), with Q*^(1/2) finite.
+    Answers u2 (...) in 1/length, v (2, ...) plain (v1 and v3), and the gap (...) plain: near the limit
+    it says what the strains no longer can.
+    """
+    u2, v, limit_gap = _apply(
+        _strains_and_gap, {"m2": m2, "n": n}, constants, ("u2", "v", "limit_gap"), out
+    )
+    return u2, v, limit_gap
+
+
+def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
+    """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m2, n1, n3)/y, y^2 = Q*."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_2, nu_1, nu_3 = values
+    rise, factor = _harden(y, c)
+    rise_per_size = rise / size
+    bend_rise = c.alpha * rise_per_size
+    shear_rise = c.zeta * rise_per_size
+    extend_rise = c.eta * rise_per_size
+    h = np.empty((3, y.size), y.dtype)
+    np.multiply(bend_rise, mu_2, out=h[0])
+    np.multiply(nu_1, shear_rise, out=h[1])
+    np.multiply(extend_rise, nu_3, out=h[2])
+    for i in range(3):
+        np.multiply(factor * h[i], h[i:], out=stiff[i, i:])
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.zeta**2 * factor
+    stiff[2, 2] += c.eta**2 * factor
+    for i in range(1, 3):
+        stiff[i, :i] = stiff[:i, i]
+
+
+def stiffness_at_loads(
+    m2: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None
+) -> Array:
+    """Stiffness d(m2, n)/d(u2, v), (3, 3, ...), at the strains of these loads.
+
+    m2 (...) in force times length, n (2, ...) in force (n1 and n3), with Q*^(1/2) finite.
+    Rows and columns are ordered (m2, n1, n3) and (u2, v1, v3).
+    The inverse of the compliance; it holds where strains no longer tell the loads.
+    """
+    (stiff,) = _apply(_stiffness_at_loads, {"m2": m2, "n": n}, constants, ("stiff",), out)
+    return stiff

@@ -6,7 +6,8 @@ Without the loads m1, m2, m3; so u1 = 0, u2 = 0; u3 follows by the coupling.
 
 Statements it rests on (paper label, verdict; as corrected if refuted): qstar-form Section 3.1
 refuted; const-u-3 eq:u3const proved; const-v-mu eq:vconst proved; const-v-3 eq:v3const proved;
-wstar-definition eq:compenergy proved; wstar-gradient Section 3.1 proved.
+wstar-definition eq:compenergy proved; wstar-gradient Section 3.1 proved; strain-limit
+eq:strainlimiting proved.
 
 Domain: loads with finite Q*^(1/2).
 
@@ -14,6 +15,7 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     strains                34    4    0   13
     complementary_energy   30    6    1   10
     compliance             68    4    0   23
+    strains_and_gap        38    4    0   14
 """
 
 from __future__ import annotations
@@ -30,12 +32,13 @@ from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
+Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
 BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
-HEADS = {"n": (3,), "u3": (), "v": (3,), "w_star": (), "soft": (3, 3)}
+HEADS = {"n": (3,), "u3": (), "v": (3,), "w_star": (), "soft": (3, 3), "limit_gap": ()}
 
 
 @dataclass(frozen=True)
@@ -342,3 +345,31 @@ def compliance(n: ArrayLike, constants: Constants, out: Array | None = None) -> 
     """
     (soft,) = _apply(_compliance, {"n": n}, constants, ("soft",), out)
     return soft
+
+
+def _strains_and_gap(loads: Rows, c: Constants, u3: Array, v: Array, limit_gap: Array) -> None:
+    """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    nu_1, nu_2, dilatation, twist = values
+    _, power, factor = _soften(y, c)
+    reach = factor * y / size
+    turn = c.per_beta * reach
+    shear = c.per_zeta * reach
+    extend = c.per_eta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    np.multiply(turn, twist, out=u3)
+    np.multiply(nu_1, shear, out=v[0])
+    np.multiply(nu_2, shear, out=v[1])
+    np.add(dilatation * extend, 1, out=v[2])
+    limit_gap[...] = remain
+
+
+def strains_and_gap(n: ArrayLike, constants: Constants, out: Triple | None = None) -> Triple:
+    """Strains u3, v under the loads n, and 1 - Q^(p/2).
+
+    n (3, ...) in force, with Q*^(1/2) finite.
+    Answers u3 (...) in 1/length, v (3, ...) plain, and the gap (...) plain: near the limit
+    it says what the strains no longer can.
+    """
+    u3, v, limit_gap = _apply(_strains_and_gap, {"n": n}, constants, ("u3", "v", "limit_gap"), out)
+    return u3, v, limit_gap

@@ -13,6 +13,7 @@ import sympy as sp
 from rodproof.codegen import lower, scene
 from rodproof.codegen.kernel import Kernel, KernelError, Output
 from rodproof.codegen.passes import stabilise as rules
+from rodproof.codegen.passes import stabilise_at_loads as at_loads
 from rodproof.codegen.passes import stabilise_p2 as square
 from rodproof.codegen.passes.choose import GENERAL, Case
 from rodproof.codegen.passes.choose import rules as chain
@@ -71,7 +72,12 @@ def test_rule_is_an_identity(case: Case, name: str, k: int) -> None:
 
 @pytest.mark.parametrize(
     "rule",
-    [rules.COMPLETE_DUAL_FORM, rules.COMPLETE_FORM, rules.REDUCE_STRAINS, rules.REDUCE_LOADS],
+    [
+        rules.COMPLETE_DUAL_FORM,
+        rules.COMPLETE_FORM,
+        rules.REDUCE_STRAINS,
+        rules.REDUCE_LOADS,
+    ],
 )
 def test_rational_rules_are_exact(rule: Rule) -> None:
     """With the definitions put in, both sides are the same rational function."""
@@ -209,6 +215,12 @@ EDGES = [
     (square.SCALE_RADIAL_FACTOR, {"y": 1e-170, "gamma": 2e-170, "p": 2.0}),
     (square.SCALE_RADIAL_FACTOR, {"y": 1e170, "gamma": 2.0, "p": 2.0}),
     (square.SPLIT_STRAIN_WEIGHT, {"y": 1e-170, "gamma": 1.1e-170, "p": 2.0}),
+    (at_loads.SCALE_LOAD_FACTOR, {"y": 1e10, "gamma": 1.5, "p": 40.0}),
+    (at_loads.SCALE_LOAD_ROOT, {"y": 1e170, "gamma": 2.0, "p": 2.0}),
+    (at_loads.GROW_WITH_LOAD, {"y": 1e6, "gamma": 2.0, "p": 2.5}),
+    (at_loads.GROW_BY_SQUARE, {"y": 1e7, "gamma": 2.0, "p": 2.0}),
+    (at_loads.KEEP_GAP, {"y": 1e6, "gamma": 2.0, "p": 2.5}),
+    (at_loads.KEEP_GAP_SQUARE, {"y": 1e8, "gamma": 2.0, "p": 2.0}),
     (rules.SCALE_RADIAL_FACTOR, {"y": 1e10, "gamma": 1.5, "p": 40.0}),
     (rules.SCALE_RADIAL_FACTOR, {"y": 1e-50, "gamma": 2e-50, "p": 8.0}),
     (rules.SPLIT_STRAIN_WEIGHT, {"y": 1e-50, "gamma": 1.1e-50, "p": 8.0}),
@@ -232,6 +244,21 @@ def test_rule_lowers_the_error(rule: Rule, values: dict[str, float]) -> None:
         right = ulps(stepwise(rule, values), truth)
     assert right < 8
     assert left > 100 * max(right, 1)
+
+
+def test_the_spread_weight_does_not_overflow() -> None:
+    """(y/gamma)^p = 1e330 overflows; alpha^2 times that, with alpha = 1e-80, does not."""
+    values = {"alpha": 1e-80, "gamma": 1.0, "p": 3.3, "y": 1e100}
+    rule = at_loads.SPREAD_WEIGHT
+    values |= {"factor": 1e100, "size": 1e100, "mu_1": 1e100}
+    values["t1"], values["share"] = 1e-80, in_doubles(rules.y**rules.p, values)
+    values["rise"] = in_doubles(at_loads.RISE.expr.xreplace(SMALL), values)
+    for name in ("rise_per_size", "bend_rise", "h1"):
+        (a,) = (a for a in rule.definitions if a.name == name)
+        values[name] = in_doubles(a.expr, values)
+    before, after = rule.pairs[0]
+    assert not np.isfinite(in_doubles(before, values))
+    assert ulps(in_doubles(after, values), mpmath.mpf(10) ** (330 - 160 + 100)) < 2**11  # 1.6 p
 
 
 def test_energies_at_two_hold_where_the_textbook_cancels() -> None:

@@ -13,15 +13,16 @@ import pytest
 
 from rodproof.codegen import generate, scene
 from rodproof.codegen.live import groups, live
+from rodproof.codegen.scene import FUNCTIONS_OF_LOADS as OF_LOADS
 from rodproof.codegen.scene import Scene
 from rodproof.derivations.theory import constrained
 from rodproof.generated.scenes import dsdna, full_rod, kirchhoff
 
 SCENES = {name: scene.committed(name) for name in scene.committed_names()}
 FUSED = "loads_and_stiffness"
-CALLS = [(name, f) for name, s in SCENES.items() for f in s.functions if f != FUSED]
+GAP = "strains_and_gap"
+CALLS = [(name, f) for name, s in SCENES.items() for f in s.functions if f not in (FUSED, GAP)]
 GOOD = {"alpha": 0.7, "beta": 1.1, "zeta": 0.9, "eta": 1.6, "iota": -0.4, "gamma": 2.3, "p": 3.3}
-OF_LOADS = ("strains", "complementary_energy", "compliance")
 
 
 def module_of(own: Scene) -> types.ModuleType:
@@ -72,7 +73,7 @@ def restricted(own: Scene, function: str, got: object) -> np.ndarray:
     if function in ("strains", "loads"):
         kept = live(own).strains if function == "strains" else at
         return np.concatenate(got)[list(kept)]
-    if function in ("stiffness", "compliance"):
+    if function in ("stiffness", "compliance", "stiffness_at_loads"):
         return got[np.ix_(at, at)] if len(at) > 1 else got[at[0], at[0]]
     return got
 
@@ -220,11 +221,26 @@ def test_fused_function_has_the_same_numbers_to_the_bit(name: str, dtype: type) 
     assert all(a is b for a, b in zip(again, out, strict=True))
 
 
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("name", [n for n, s in SCENES.items() if GAP in s.functions])
+def test_strains_beside_the_gap_are_the_strains_to_the_bit(name: str, dtype: type) -> None:
+    own, module = SCENES[name], importlib.import_module(f"rodproof.generated.scenes.{name}")
+    mine, whole = constants(own, module)
+    given, (m, n) = inputs(own, GAP, (4, 5), dtype)
+    *strains, gap = module.strains_and_gap(*given, mine)
+    apart = module.strains(*given, mine)
+    apart = apart if isinstance(apart, tuple) else (apart,)
+    assert all(np.array_equal(a, b) for a, b in zip(strains, apart, strict=True))
+    *_, wanted = full_rod.strains_and_gap(m, n, whole)
+    assert gap.dtype == dtype
+    np.testing.assert_allclose(gap, wanted, rtol=8 * np.finfo(dtype).eps)
+
+
 @pytest.mark.parametrize("layout", ["first", "last"])
 @pytest.mark.parametrize("constraints", [(), ("planar",), ("unshearable",)])
 def test_packed_matrices(constraints: tuple, layout: str) -> None:
     """The entries on and above the diagonal, row by row, to the bit those of the whole."""
-    functions = ("stiffness", FUSED, "compliance")
+    functions = ("stiffness", FUSED, "compliance", "stiffness_at_loads")
     settings = {"functions": functions, "constraints": constraints}
     whole = Scene("a", **settings)
     packed = Scene("a", **settings, matrix="packed", layout=layout)

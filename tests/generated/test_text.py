@@ -150,12 +150,19 @@ def true_values(own: str, name: str, point: tuple) -> dict[tuple, Any]:
     """The naive full rod at the scene's loads or strains, at the places of the scene's arrays."""
     if name == "loads_and_stiffness":
         return true_values(own, "loads", point) | true_values(own, "stiffness", point)
+    if name == "strains_and_gap":
+        whole = [point[i] if i in live(SCENES[own]).loads else 0 for i in range(6)]
+        full = Evaluator(60).evaluate(
+            NAIVE[name], dict(zip(NAIVE[name].inputs, whole, strict=True)), constants_of(own)
+        )
+        gap = {("limit_gap", ()): full["limit_gap", ()]}
+        return true_values(own, "strains", point) | gap
     kernel, at = NAIVE[name], live(SCENES[own])
     rest = (0, 0, 0, 0, 0, 0 if kernel.inputs[0] == "m1" else 1)
     whole = [point[i] if i in at.loads else rest[i] for i in range(6)]
     inputs = dict(zip(kernel.inputs, whole, strict=True))
     full = Evaluator(60).evaluate(kernel, inputs, constants_of(own))
-    if name in ("stiffness", "compliance"):
+    if name in ("stiffness", "compliance", "stiffness_at_loads"):
         array, n = kernel.outputs[0].array, len(at.loads)
         return {
             (array, (i, j)): full[array, tuple(sorted((at.loads[i], at.loads[j])))]
@@ -196,6 +203,7 @@ def slips() -> list[tuple[str, str]]:
     lines = TEXT.split("\n")
     users = {"_reduce_loads": "compliance", "_soften": "strains"}
     users |= {"_reduce_strains": "stiffness", "_stiffen": "stiffness"}
+    users |= {"_harden": "stiffness_at_loads"}
     users |= {f"_{name}": name for name in NAIVE}
     found = []
     for node in ast.parse(TEXT).body:
