@@ -1,8 +1,7 @@
-"""What the README shows is what happens."""
+"""The README names every command, and only what is there (its snippets run in tests/guide)."""
 
 from __future__ import annotations
 
-import doctest
 import re
 from pathlib import Path
 
@@ -11,23 +10,10 @@ from typer.main import get_command
 from rodproof.codegen.cli import app
 
 
-def test_its_python_runs(root: Path) -> None:
-    failed, tried = doctest.testfile(str(root / "README.md"), module_relative=False)
-    assert tried >= 6
-    assert failed == 0
-
-
 def test_it_names_every_command(root: Path) -> None:
     text = (root / "README.md").read_text()
     named = set(re.findall(r"`rodproof (\w+)", text))
     assert set(get_command(app).commands) == named  # type: ignore[attr-defined]
-
-
-def test_its_links_and_pictures_exist(root: Path) -> None:
-    text = (root / "README.md").read_text()
-    targets = re.findall(r"\]\(([^)]+)\)", text)
-    assert targets
-    assert [target for target in targets if not (root / target).exists()] == []
 
 
 def test_its_make_targets_exist(root: Path) -> None:
