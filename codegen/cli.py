@@ -32,6 +32,9 @@ app = typer.Typer(
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Jobs = Annotated[int, typer.Option(min=1, help="Processes to check with.", show_default="cores")]
+Scheduler = Annotated[
+    str | None, typer.Option(metavar="ADDRESS", help="Work on this dask.distributed cluster.")
+]
 Section = Annotated[str | None, typer.Option(help="Only this section of the paper, as 3.1.")]
 Quick = Annotated[bool, typer.Option("--quick", help="Fewer points and rounds: half a minute.")]
 CORES = os.cpu_count() or 1
@@ -53,11 +56,13 @@ def main() -> None:
 
 
 @contextmanager
-def one_sentence() -> Iterator[None]:
-    """Bad input ends in one sentence on standard error and exit code 2."""
+def one_sentence(
+    refused: tuple[type[Exception], ...] = (ValueError, OSError),
+) -> Iterator[None]:
+    """Bad input, or another of these errors, ends in one sentence on standard error, code 2."""
     try:
         yield
-    except (ValueError, OSError) as error:
+    except refused as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(USAGE) from None
 
@@ -108,16 +113,18 @@ def check(
     as_json: Json = False,
     mutants: Annotated[bool, typer.Option("--mutants", help="Try the broken twins too.")] = False,
     jobs: Jobs = CORES,
+    scheduler: Scheduler = None,
 ) -> None:
     """Verdict, method and time for each printed statement."""
-    from rodproof.derivations import ledger
+    from rodproof.derivations import ledger, workers
 
     with one_sentence():
         chosen = ledger.find(ids) if ids else ledger.statements(section)
     started = time.perf_counter()
-    workers = min(jobs, len(chosen))
-    with show.progress("check") as tell:
-        evidence = ledger.check(chosen, mutants=mutants, jobs=workers, progress=tell)
+    with one_sentence(workers.ERRORS), show.progress("check") as tell:
+        evidence = ledger.check(
+            chosen, mutants=mutants, jobs=jobs, scheduler=scheduler, progress=tell
+        )
     if as_json:
         show.as_json(
             {

@@ -12,11 +12,11 @@ import importlib
 import time
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
-from concurrent.futures import Executor, ProcessPoolExecutor
-from contextlib import nullcontext
-from functools import cache
+from concurrent.futures import Executor
+from functools import cache, partial
 from pathlib import Path
 
+from rodproof.derivations import workers
 from rodproof.derivations.latex import block
 from rodproof.derivations.proof.mutants import mutants as broken_twins
 from rodproof.derivations.records import VERDICTS, Confirmation, Decision, Evidence, Statement
@@ -102,28 +102,24 @@ def check(
     mutants: bool = False,
     jobs: int = 1,
     progress: Progress = lambda name, done, total: None,
+    scheduler: str | None = None,
     executor: Executor | None = None,
 ) -> tuple[Evidence, ...]:
-    """The evidence on each statement, in order; results do not depend on `jobs`.
+    """The evidence on each statement, in order; results do not depend on who computes them.
 
-    mutants: also try the broken twins. executor: any concurrent.futures executor in place of
-    `jobs` local processes. progress: called with (id, done, total) as results arrive.
+    mutants: also try the broken twins. jobs, scheduler, executor: see `workers.run`. progress:
+    called with (id, done, total) as results arrive.
     """
     todo = tuple(chosen)
-    if executor is None and jobs <= 1:
-        found = []
-        for k, statement in enumerate(todo, 1):
-            found.append(judge(statement, mutants=mutants))
-            progress(statement.id, k, len(todo))
-        return tuple(found)
-    pool = nullcontext(executor) if executor is not None else ProcessPoolExecutor(jobs)
-    with pool as workers:
-        futures = [workers.submit(judge_by_id, s.id, mutants) for s in todo]
-        results = []
-        for k, (statement, future) in enumerate(zip(todo, futures, strict=True), 1):
-            results.append(future.result())
-            progress(statement.id, k, len(todo))
-    return tuple(results)
+    if executor is None and scheduler is None and jobs <= 1:
+        tasks = [workers.Task(s.id, partial(judge, s, mutants=mutants)) for s in todo]
+    else:
+        tasks = [workers.Task(s.id, judge_by_id, (s.id, mutants)) for s in todo]
+    found: dict[int, Evidence] = {}
+    for index, evidence in workers.run(tasks, jobs=jobs, scheduler=scheduler, executor=executor):
+        found[index] = evidence
+        progress(evidence.id, len(found), len(todo))
+    return tuple(found[index] for index in range(len(todo)))
 
 
 def judge_by_id(name: str, mutants: bool) -> Evidence:
