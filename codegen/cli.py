@@ -231,8 +231,7 @@ def generate(
         folder = places.checkout().generated
         chosen = [scene.committed(name) for name in names] if names else None
         if not check_only:
-            wanted = chosen or generator.committed_scenes()
-            _written(generator.write(wanted, folder, verdicts), as_json)
+            _written(generator.write(folder, chosen, verdicts), as_json)
             return
         found = generator.check(folder, chosen, verdicts)
     show.file_differences(found, as_json)

@@ -1,6 +1,8 @@
 """From a scene to its module: every arrow of the code generator in one place.
 
 scene --lower--> naive kernels --passes--> kernels --print_module--> text --write--> file
+
+The modules of equilibria hold such a text and the equations around it (`codegen.equilibria`).
 """
 
 from __future__ import annotations
@@ -10,6 +12,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from rodproof.codegen import equilibria
 from rodproof.codegen import files as disk
 from rodproof.codegen import scene as toml
 from rodproof.codegen.kernel import Kernel, validate
@@ -27,6 +30,7 @@ from rodproof.derivations.symbols import CONSTANTS
 Pass = Callable[[Kernel], Kernel]
 
 FOLDER = "scenes"
+FOLDERS = (FOLDER, equilibria.FOLDER)
 INIT = '"""One module a scene; every byte is written by rodproof.codegen."""\n'
 
 
@@ -75,19 +79,26 @@ def files(scenes: Iterable[Scene], verdicts: Mapping[str, str] | None = None) ->
     return texts | {f"{FOLDER}/{s.name}.py": render(s, verdicts) for s in scenes}
 
 
+def everything(verdicts: Mapping[str, str] | None = None) -> dict[str, str]:
+    """All that the folder ``generated`` holds: the committed scenes and the equilibria."""
+    said = verdicts or {}
+    return files(committed_scenes(), said) | equilibria.files(lambda s: render(s, said), said)
+
+
 def committed_scenes() -> tuple[Scene, ...]:
     """Every scene that comes with the project."""
     return tuple(toml.committed(name) for name in toml.committed_names())
 
 
 def write(
-    scenes: Iterable[Scene], root: Path, verdicts: Mapping[str, str] | None = None
+    root: Path, scenes: Iterable[Scene] | None = None, verdicts: Mapping[str, str] | None = None
 ) -> list[Path]:
-    """Writes the scenes' modules under ``root`` (the folder ``generated``); returns their paths.
+    """Writes what ``root`` (the folder ``generated``) holds, or the scenes named; returns paths.
 
     Everything is rendered before anything is written, and each file is replaced in one step.
     """
-    texts = {root / path: text for path, text in files(scenes, verdicts).items()}
+    wanted = everything(verdicts) if scenes is None else files(scenes, verdicts)
+    texts = {root / path: text for path, text in wanted.items()}
     for path, text in texts.items():
         disk.write_text(path, text)
     return list(texts)
@@ -106,7 +117,7 @@ def check(
 
     With ``scenes`` only these are compared, and stray files are not looked for.
     """
-    wanted = files(committed_scenes() if scenes is None else scenes, verdicts)
+    wanted = everything(verdicts) if scenes is None else files(scenes, verdicts)
     found = []
     for path, text in wanted.items():
         present = (root / path).is_file()
@@ -120,7 +131,7 @@ def check(
             )
             found.append(Difference(path, "changed" if present else "missing", "".join(lines)))
     if scenes is None:
-        strays = sorted((root / FOLDER).glob("*.py"))
-        names = (f"{FOLDER}/{stray.name}" for stray in strays)
+        strays = (stray for folder in FOLDERS for stray in sorted((root / folder).glob("*.py")))
+        names = (f"{stray.parent.name}/{stray.name}" for stray in strays)
         found += [Difference(name, "stray", "") for name in names if name not in wanted]
     return found

@@ -67,9 +67,8 @@ def check(jobs: int, stage: Stage) -> tuple[Evidence, ...]:
 def write_modules(places: Places, stage: Stage) -> tuple[Path, ...]:
     """Rewrite ``generated/``."""
     with stage("generate") as tell:
-        tell("scenes", 0, 1)
-        scenes = generate.committed_scenes()
-        written = tuple(generate.write(scenes, places.generated, ledger.recorded()))
+        tell("modules", 0, 1)
+        written = tuple(generate.write(places.generated, verdicts=ledger.recorded()))
         tell("", 1, 1)
     return written
 

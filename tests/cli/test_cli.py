@@ -152,7 +152,7 @@ def test_generate_check_shows_what_differs(tmp_path: Path, monkeypatch: pytest.M
     from rodproof.derivations import ledger
 
     monkeypatch.setattr(places, "checkout", lambda: places.Places(tmp_path))
-    generate.write(generate.committed_scenes(), tmp_path / "generated", ledger.recorded())
+    generate.write(tmp_path / "generated", verdicts=ledger.recorded())
     assert rodproof("generate", "--check").exit_code == 0
     module = tmp_path / "generated" / "scenes" / "full_rod.py"
     module.write_text(module.read_text().replace("import numpy as np", "import numpy"))

@@ -306,7 +306,7 @@ def test_same_bytes_whatever_the_hash_seed(root: Path) -> None:
     program = (
         "import hashlib\n"
         "from rodproof.codegen import generate\n"
-        "files = generate.files(generate.committed_scenes())\n"
+        "files = generate.everything()\n"
         "print({path: hashlib.sha256(text.encode()).hexdigest() for path, text in files.items()})\n"
     )
     runs = {
@@ -328,7 +328,7 @@ def test_committed_files_follow_from_the_source(root: Path) -> None:
 
 
 def test_check_finds_changed_missing_and_stray(tmp_path: Path) -> None:
-    generate.write(generate.committed_scenes(), tmp_path)
+    generate.write(tmp_path)
     assert generate.check(tmp_path) == []
     (tmp_path / "scenes/full_rod.py").write_text("changed\n", "utf-8")
     (tmp_path / "scenes/__init__.py").unlink()

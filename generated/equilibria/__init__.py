@@ -1,0 +1,1 @@
+"""Rods in equilibrium as numbers; every byte is written by rodproof.codegen."""

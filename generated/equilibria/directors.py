@@ -1,0 +1,875 @@
+"""A rod in equilibrium, by its directors: rates and Jacobian for any integrator.
+
+Made by: rodproof generate
+
+The frame is a quaternion, the couple is in the directors, the center line and the force are in
+the fixed basis; no angle, so no place where the equations are singular. The strains come from the
+loads, so that no load is too large.
+
+Statements it rests on (verdict; as corrected if refuted): darboux-formula proved,
+darboux-components definition, force-balance proved, moment-balance proved,
+extra-balance-in-directors proved, const-u-mu proved, const-u-3 proved, const-v-mu proved,
+const-v-3 proved, wstar-gradient proved.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+Array = np.ndarray[Any, np.dtype[Any]]
+Pair = tuple[Array, Array]
+Rows = Sequence[Array]
+Inputs = dict[str, ArrayLike]
+
+BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
+TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
+HEADS = {"m": (3,), "n": (3,), "u": (3,), "v": (3,), "soft": (6, 6)}
+
+
+@dataclass(frozen=True)
+class Constants:
+    """The seven constants of the rod, checked on construction (ValueError).
+
+    alpha, beta and iota are lengths, gamma is a force, zeta, eta and p are plain numbers; all but
+    iota are positive and beta^2 eta^2 - iota^2 > 0.
+    """
+
+    alpha: float
+    beta: float
+    zeta: float
+    eta: float
+    iota: float
+    gamma: float
+    p: float
+    chirality: float = field(init=False, repr=False, compare=False)
+    gap: float = field(init=False, repr=False, compare=False)
+    n3_dilates: float = field(init=False, repr=False, compare=False)
+    m3_contracts: float = field(init=False, repr=False, compare=False)
+    per_alpha: float = field(init=False, repr=False, compare=False)
+    per_beta: float = field(init=False, repr=False, compare=False)
+    per_zeta: float = field(init=False, repr=False, compare=False)
+    per_eta: float = field(init=False, repr=False, compare=False)
+    per_gap: float = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        for name in ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p"):
+            value = float(getattr(self, name))
+            if not math.isfinite(value) or (value <= 0 and name != "iota"):
+                rule = "a finite number" if name == "iota" else "positive and finite"
+                raise ValueError(f"Constants: {name} must be {rule}, not {value}")
+            object.__setattr__(self, name, value)
+        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota))
+        alpha, beta, zeta, eta, iota = exact
+        if not beta**2 * eta**2 - iota**2 > 0:
+            raise ValueError(
+                "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
+                f" not beta={self.beta}, eta={self.eta}, iota={self.iota}"
+            )
+        derived = {
+            "chirality": iota / beta / eta,
+            "gap": (beta**2 * eta**2 - iota**2) / beta**2 / eta**2,
+            "n3_dilates": beta**2 * eta / (beta**2 * eta**2 - iota**2),
+            "m3_contracts": eta * iota / (beta**2 * eta**2 - iota**2),
+            "per_alpha": 1 / alpha,
+            "per_beta": 1 / beta,
+            "per_zeta": 1 / zeta,
+            "per_eta": 1 / eta,
+            "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
+        }
+        for name, ratio in derived.items():  # exact, then rounded once
+            if abs(ratio) >= 2**1023:
+                raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
+            object.__setattr__(self, name, float(ratio))
+
+
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
+    """Loads over their moduli, the linear rod's strains, and Q* in squares."""
+    m1, m2, m3, n1, n2, n3 = loads
+    mu_1 = c.per_alpha * m1
+    mu_2 = c.per_alpha * m2
+    mu_3 = c.per_beta * m3
+    nu_1 = c.per_zeta * n1
+    nu_2 = c.per_zeta * n2
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    nu_3 = c.per_eta * n3
+    q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2 + nu_1**2 + nu_2**2
+    return mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3, q_star
+
+
+def _soften(y: Array, c: Constants) -> Rows:
+    """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
+    tiny = TINY[y.dtype]
+    larger = np.maximum(y, c.gamma)
+    ratio = np.maximum(tiny, np.minimum(y, c.gamma) / larger)
+    power = np.exp(c.p * np.log(ratio))
+    factor = np.exp(-np.log1p(power) / c.p) / larger
+    return power, factor
+
+
+def _exponent(rows: Rows) -> Array:
+    """The power of two above the largest magnitude in each column."""
+    largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
+    return np.frexp(largest)[1]
+
+
+def _balanced(
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+) -> tuple[Rows, Array, Array, Array]:
+    """Values of ``form``, the root of its last one, and the radius and its square.
+
+    Where squares would overflow or underflow the inputs are taken times a power of two, a factor
+    that the values and their root share and that later cancels; the radius is free of it.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        *values, square = form(inputs, c)
+        tiny = TINY[square.dtype]
+        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
+            size = np.sqrt(square)
+            return values, size, size, square
+        power = _exponent(inputs)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        power = power + _exponent(values)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
+        size = np.sqrt(square)
+        radius = np.ldexp(size, power)
+        return values, np.maximum(size, tiny), radius, radius * radius
+
+
+def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
+    """The inputs as float arrays of one type, components first, and the trailing shape."""
+    arrays = {name: np.asarray(value) for name, value in inputs.items()}
+    for name, array in arrays.items():
+        head = HEADS[name]
+        if array.dtype.kind not in "iuf" or array.shape[: len(head)] != head:
+            wanted = ", ".join([*map(str, head), "..."])
+            kind = f"{array.dtype} of shape {array.shape}"
+            raise ValueError(f"{name} must hold real numbers in the shape ({wanted}), not {kind}")
+    dtype = np.float32 if np.result_type(*arrays.values()) == np.float32 else np.float64
+    try:
+        shape = np.broadcast_shapes(*(a.shape[len(HEADS[name]) :] for name, a in arrays.items()))
+    except ValueError:
+        shapes = " and ".join(f"{name} {a.shape}" for name, a in arrays.items())
+        raise ValueError(f"{shapes} do not broadcast after their first axis") from None
+    ready = []
+    for name, array in arrays.items():
+        head = HEADS[name]
+        fill = (1,) * (len(head) + len(shape) - array.ndim)
+        array = array.reshape((*head, *fill, *array.shape[len(head) :]))
+        ready.append(np.broadcast_to(array, (*head, *shape)).astype(dtype, copy=False))
+    return ready, shape
+
+
+def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
+    """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
+    shapes = [(*HEADS[name], *shape) for name in names]
+    if out is None:
+        return [np.empty(wanted, dtype) for wanted in shapes]
+    given = out if isinstance(out, tuple) else (out,)
+    if len(given) != len(names):
+        raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
+    for name, array, wanted in zip(names, given, shapes, strict=True):
+        kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
+        if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
+            raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
+    return list(given)
+
+
+def _apply(
+    body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
+) -> list[Array]:
+    """Runs ``body`` over blocks of points, straight into the results where that is safe."""
+    arrays, shape = _arguments(inputs)
+    results = _results(names, shape, arrays[0].dtype, out)
+    points = math.prod(shape)
+    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    direct = all(
+        r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
+    )
+    flat = [
+        (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
+        for name, r in zip(names, results, strict=True)
+    ]
+    with np.errstate(under="ignore"):
+        for start in range(0, points, BLOCK):
+            part = slice(start, start + BLOCK)
+            body([row[part] for row in rows], c, *(array[..., part] for array in flat))
+    if not direct:
+        for result, values in zip(results, flat, strict=True):
+            result[...] = values.reshape(result.shape)
+    return results
+
+
+def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
+    """(u, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n)."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
+    *_, factor = _soften(y, c)
+    reach = factor * y / size
+    bend = c.per_alpha * reach
+    turn = c.per_beta * reach
+    shear = c.per_zeta * reach
+    extend = c.per_eta * reach
+    np.multiply(bend, mu_1, out=u[0])
+    np.multiply(bend, mu_2, out=u[1])
+    np.multiply(turn, twist, out=u[2])
+    np.multiply(nu_1, shear, out=v[0])
+    np.multiply(nu_2, shear, out=v[1])
+    np.add(dilatation * extend, 1, out=v[2])
+
+
+def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+    """Strains u, v under the loads m, n (eq:uconst to eq:v3const).
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, v (3, ...) plain; at rest u = 0, v = (0, 0, 1).
+    """
+    u, v = _apply(_strains, {"m": m, "n": n}, constants, ("u", "v"), out)
+    return u, v
+
+
+def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+    """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y.
+
+    With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
+    the entries that would cancel are sums of squares.
+    """
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3 = values
+    power, factor = _soften(y, c)
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    per_size = 1 / size
+    tiny = TINY[y.dtype]
+    a1 = per_size * (mu_1 + tiny)
+    aa1 = a1**2
+    a2 = mu_2 * per_size
+    aa2 = a2**2
+    a3 = mu_3 * per_size
+    aa3 = a3**2
+    b1 = nu_1 * per_size
+    bb1 = b1**2
+    b2 = nu_2 * per_size
+    bb2 = b2**2
+    b3 = nu_3 * per_size
+    c3 = per_size * twist
+    c6 = dilatation * per_size
+    cc6 = c6**2
+    across = aa1 + aa2 + bb1 + bb2
+    coupled = aa3 + c.gap * cc6
+    share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
+    steep = -factor * share
+    d = np.empty((6, y.size), y.dtype)
+    np.multiply(c.per_alpha, a1, out=d[0])
+    np.multiply(c.per_alpha, a2, out=d[1])
+    np.multiply(c.per_beta, c3, out=d[2])
+    np.multiply(c.per_zeta, b1, out=d[3])
+    np.multiply(c.per_zeta, b2, out=d[4])
+    np.multiply(c.per_eta, c6, out=d[5])
+    for i in range(6):
+        np.multiply(steep * d[i], d[i:], out=soft[i, i:])
+    np.multiply(c.per_alpha**2 * factor, aa1 * remain + aa2 + bb1 + bb2 + coupled, out=soft[0, 0])
+    np.multiply(c.per_alpha**2 * factor, aa1 + aa2 * remain + bb1 + bb2 + coupled, out=soft[1, 1])
+    soft[2, 2] = c.per_beta**2 * factor * (c3**2 * remain + c.per_gap * (across + b3**2))
+    soft[2, 5] = c.per_beta * c.per_eta * factor * (
+        c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across)
+    )
+    np.multiply(c.per_zeta**2 * factor, aa1 + aa2 + bb1 * remain + bb2 + coupled, out=soft[3, 3])
+    np.multiply(c.per_zeta**2 * factor, aa1 + aa2 + bb1 + bb2 * remain + coupled, out=soft[4, 4])
+    np.multiply(c.per_eta**2 * factor, cc6 * remain + c.per_gap * (aa3 + across), out=soft[5, 5])
+    for i in range(1, 6):
+        soft[i, :i] = soft[:i, i]
+
+
+def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+    """Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
+    """
+    (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, ("soft",), out)
+    return soft
+
+
+Number = Any  # a float or an array
+Numbers = Sequence[Any]  # one for each component
+Field = ArrayLike | Callable[[Any], ArrayLike]  # constant, at every s, or of s
+
+
+def _linear_strains(loads: Numbers, c: Constants) -> Numbers:
+    """(u, v) = K^-1 (m, n)/gamma + (0, e3): the law at rest, for every load."""
+    m1, m2, m3, n1, n2, n3 = loads
+    mu_1 = c.per_alpha * m1
+    mu_2 = c.per_alpha * m2
+    mu_3 = c.per_beta * m3
+    nu_1 = c.per_zeta * n1
+    nu_2 = c.per_zeta * n2
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    return (
+        c.per_alpha * mu_1 / c.gamma,
+        c.per_alpha * mu_2 / c.gamma,
+        c.per_beta * twist / c.gamma,
+        c.per_zeta * nu_1 / c.gamma,
+        c.per_zeta * nu_2 / c.gamma,
+        c.per_eta * dilatation / c.gamma + 1,
+    )
+
+
+def _linear_compliance(c: Constants) -> Numbers:
+    """K^-1/gamma, the entries on and above the diagonal, row by row."""
+    return (
+        c.per_alpha**2 / c.gamma,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        c.per_alpha**2 / c.gamma,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        c.per_beta**2 * c.per_gap / c.gamma,
+        0.0,
+        0.0,
+        -c.chirality * c.per_beta * c.per_eta * c.per_gap / c.gamma,
+        c.per_zeta**2 / c.gamma,
+        0.0,
+        0.0,
+        c.per_zeta**2 / c.gamma,
+        0.0,
+        c.per_eta**2 * c.per_gap / c.gamma,
+    )
+
+
+def _frame(q: Numbers) -> Numbers:
+    """The directors' components d_k . g_i, all of d_1 first: the columns of R(q), any |q| > 0."""
+    q0, q1, q2, q3 = q
+    q00 = q0**2
+    q11 = q1**2
+    q22 = q2**2
+    q33 = q3**2
+    per_norm = 1 / (q00 + q11 + q22 + q33)
+    return (
+        per_norm * (q00 + q11 - q22 - q33),
+        2 * per_norm * (q0 * q3 + q1 * q2),
+        2 * per_norm * (q1 * q3 - q0 * q2),
+        2 * per_norm * (q1 * q2 - q0 * q3),
+        per_norm * (q00 + q22 - q11 - q33),
+        2 * per_norm * (q0 * q1 + q2 * q3),
+        2 * per_norm * (q0 * q2 + q1 * q3),
+        2 * per_norm * (q2 * q3 - q0 * q1),
+        per_norm * (q00 + q33 - q11 - q22),
+    )
+
+
+def _in_directors(d: Numbers, a: Numbers) -> Numbers:
+    """The components in the directors of a vector given in the fixed basis."""
+    d1_1, d1_2, d1_3, d2_1, d2_2, d2_3, d3_1, d3_2, d3_3 = d
+    a1, a2, a3 = a
+    return (
+        a1 * d1_1 + a2 * d1_2 + a3 * d1_3,
+        a1 * d2_1 + a2 * d2_2 + a3 * d2_3,
+        a1 * d3_1 + a2 * d3_2 + a3 * d3_3,
+    )
+
+
+def _rates(
+    q: Numbers, m: Numbers, d: Numbers, n: Numbers, b: Numbers, u: Numbers, v: Numbers
+) -> Numbers:
+    """q', m', r'; n and b are the force and the body couple in the directors."""
+    q0, q1, q2, q3 = q
+    m1, m2, m3 = m
+    d1_1, d1_2, d1_3, d2_1, d2_2, d2_3, d3_1, d3_2, d3_3 = d
+    n1, n2, n3 = n
+    b1, b2, b3 = b
+    u1, u2, u3 = u
+    v1, v2, v3 = v
+    return (
+        -0.5 * (q1 * u1 + q2 * u2 + q3 * u3),
+        0.5 * (q0 * u1 + q2 * u3 - q3 * u2),
+        0.5 * (q0 * u2 + q3 * u1 - q1 * u3),
+        0.5 * (q0 * u3 + q1 * u2 - q2 * u1),
+        m2 * u3 + n2 * v3 - b1 - m3 * u2 - n3 * v2,
+        m3 * u1 + n3 * v1 - b2 - m1 * u3 - n1 * v3,
+        m1 * u2 + n1 * v2 - b3 - m2 * u1 - n2 * v1,
+        d1_1 * v1 + d2_1 * v2 + d3_1 * v3,
+        d1_2 * v1 + d2_2 * v2 + d3_2 * v3,
+        d1_3 * v1 + d2_3 * v2 + d3_3 * v3,
+    )
+
+
+BY_STATE = (
+    (0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (5, 0), (6, 0), (7, 0), (8, 0), (9, 0), (0, 1), (1, 1),
+    (2, 1), (3, 1), (4, 1), (5, 1), (6, 1), (7, 1), (8, 1), (9, 1), (0, 2), (1, 2), (2, 2), (3, 2),
+    (4, 2), (5, 2), (6, 2), (7, 2), (8, 2), (9, 2), (0, 3), (1, 3), (2, 3), (3, 3), (4, 3), (5, 3),
+    (6, 3), (7, 3), (8, 3), (9, 3), (0, 4), (1, 4), (2, 4), (3, 4), (4, 4), (5, 4), (6, 4), (7, 4),
+    (8, 4), (9, 4), (0, 5), (1, 5), (2, 5), (3, 5), (4, 5), (5, 5), (6, 5), (7, 5), (8, 5), (9, 5),
+    (0, 6), (1, 6), (2, 6), (3, 6), (4, 6), (5, 6), (6, 6), (7, 6), (8, 6), (9, 6),
+)
+
+
+def _by_state(
+    q: Numbers,
+    m: Numbers,
+    d: Numbers,
+    n: Numbers,
+    b: Numbers,
+    u: Numbers,
+    v: Numbers,
+    soft: Numbers,
+) -> Numbers:
+    """Entries of the derivative of q', m', r' by q and m."""
+    q0, q1, q2, q3 = q
+    m1, m2, m3 = m
+    d1_1, d1_2, d1_3, d2_1, d2_2, d2_3, d3_1, d3_2, d3_3 = d
+    n1, n2, n3 = n
+    b1, b2, b3 = b
+    u1, u2, u3 = u
+    v1, v2, v3 = v
+    (
+        soft11, soft12, soft13, soft14, soft15, soft16, soft22, soft23, soft24, soft25, soft26,
+        soft33, soft34, soft35, soft36, soft44, soft45, soft46, soft55, soft56, soft66,
+    ) = soft
+    per_norm = 1 / (q0**2 + q1**2 + q2**2 + q3**2)
+    w0 = 2 * per_norm * q0
+    w1 = 2 * per_norm * q1
+    w2 = 2 * per_norm * q2
+    w3 = 2 * per_norm * q3
+    n1_q0 = n3 * w2 - n2 * w3
+    n1_q1 = n2 * w2 + n3 * w3
+    n1_q2 = -(n2 * w1 + n3 * w0)
+    n1_q3 = n2 * w0 - n3 * w1
+    n2_q0 = n1 * w3 - n3 * w1
+    n2_q1 = n3 * w0 - n1 * w2
+    n2_q2 = n1 * w1 + n3 * w3
+    n2_q3 = -(n1 * w0 + n3 * w2)
+    n3_q0 = n2 * w1 - n1 * w2
+    n3_q1 = -(n1 * w3 + n2 * w0)
+    n3_q2 = n1 * w0 - n2 * w3
+    n3_q3 = n1 * w1 + n2 * w2
+    b1_q0 = b3 * w2 - b2 * w3
+    b1_q1 = b2 * w2 + b3 * w3
+    b1_q2 = -(b2 * w1 + b3 * w0)
+    b1_q3 = b2 * w0 - b3 * w1
+    b2_q0 = b1 * w3 - b3 * w1
+    b2_q1 = b3 * w0 - b1 * w2
+    b2_q2 = b1 * w1 + b3 * w3
+    b2_q3 = -(b1 * w0 + b3 * w2)
+    b3_q0 = b2 * w1 - b1 * w2
+    b3_q1 = -(b1 * w3 + b2 * w0)
+    b3_q2 = b1 * w0 - b2 * w3
+    b3_q3 = b1 * w1 + b2 * w2
+    u1_q0 = n1_q0 * soft14 + n2_q0 * soft15 + n3_q0 * soft16
+    u1_q1 = n1_q1 * soft14 + n2_q1 * soft15 + n3_q1 * soft16
+    u1_q2 = n1_q2 * soft14 + n2_q2 * soft15 + n3_q2 * soft16
+    u1_q3 = n1_q3 * soft14 + n2_q3 * soft15 + n3_q3 * soft16
+    u2_q0 = n1_q0 * soft24 + n2_q0 * soft25 + n3_q0 * soft26
+    u2_q1 = n1_q1 * soft24 + n2_q1 * soft25 + n3_q1 * soft26
+    u2_q2 = n1_q2 * soft24 + n2_q2 * soft25 + n3_q2 * soft26
+    u2_q3 = n1_q3 * soft24 + n2_q3 * soft25 + n3_q3 * soft26
+    u3_q0 = n1_q0 * soft34 + n2_q0 * soft35 + n3_q0 * soft36
+    u3_q1 = n1_q1 * soft34 + n2_q1 * soft35 + n3_q1 * soft36
+    u3_q2 = n1_q2 * soft34 + n2_q2 * soft35 + n3_q2 * soft36
+    u3_q3 = n1_q3 * soft34 + n2_q3 * soft35 + n3_q3 * soft36
+    v1_q0 = n1_q0 * soft44 + n2_q0 * soft45 + n3_q0 * soft46
+    v1_q1 = n1_q1 * soft44 + n2_q1 * soft45 + n3_q1 * soft46
+    v1_q2 = n1_q2 * soft44 + n2_q2 * soft45 + n3_q2 * soft46
+    v1_q3 = n1_q3 * soft44 + n2_q3 * soft45 + n3_q3 * soft46
+    v2_q0 = n1_q0 * soft45 + n2_q0 * soft55 + n3_q0 * soft56
+    v2_q1 = n1_q1 * soft45 + n2_q1 * soft55 + n3_q1 * soft56
+    v2_q2 = n1_q2 * soft45 + n2_q2 * soft55 + n3_q2 * soft56
+    v2_q3 = n1_q3 * soft45 + n2_q3 * soft55 + n3_q3 * soft56
+    v3_q0 = n1_q0 * soft46 + n2_q0 * soft56 + n3_q0 * soft66
+    v3_q1 = n1_q1 * soft46 + n2_q1 * soft56 + n3_q1 * soft66
+    v3_q2 = n1_q2 * soft46 + n2_q2 * soft56 + n3_q2 * soft66
+    v3_q3 = n1_q3 * soft46 + n2_q3 * soft56 + n3_q3 * soft66
+    return (
+        -0.5 * (q1 * u1_q0 + q2 * u2_q0 + q3 * u3_q0),
+        0.5 * (q0 * u1_q0 + q2 * u3_q0 + u1 - q3 * u2_q0),
+        0.5 * (q0 * u2_q0 + q3 * u1_q0 + u2 - q1 * u3_q0),
+        0.5 * (q0 * u3_q0 + q1 * u2_q0 + u3 - q2 * u1_q0),
+        m2 * u3_q0 + n2 * v3_q0 + n2_q0 * v3 - b1_q0 - m3 * u2_q0 - n3 * v2_q0 - n3_q0 * v2,
+        m3 * u1_q0 + n3 * v1_q0 + n3_q0 * v1 - b2_q0 - m1 * u3_q0 - n1 * v3_q0 - n1_q0 * v3,
+        m1 * u2_q0 + n1 * v2_q0 + n1_q0 * v2 - b3_q0 - m2 * u1_q0 - n2 * v1_q0 - n2_q0 * v1,
+        (
+            d1_1 * v1_q0
+            + d2_1 * v2_q0
+            + d3_1 * v3_q0
+            - w1 * (d3_1 * v2 - d2_1 * v3)
+            - w2 * (d1_1 * v3 - d3_1 * v1)
+            - w3 * (d2_1 * v1 - d1_1 * v2)
+        ),
+        (
+            d1_2 * v1_q0
+            + d2_2 * v2_q0
+            + d3_2 * v3_q0
+            - w1 * (d3_2 * v2 - d2_2 * v3)
+            - w2 * (d1_2 * v3 - d3_2 * v1)
+            - w3 * (d2_2 * v1 - d1_2 * v2)
+        ),
+        (
+            d1_3 * v1_q0
+            + d2_3 * v2_q0
+            + d3_3 * v3_q0
+            - w1 * (d3_3 * v2 - d2_3 * v3)
+            - w2 * (d1_3 * v3 - d3_3 * v1)
+            - w3 * (d2_3 * v1 - d1_3 * v2)
+        ),
+        -0.5 * (q1 * u1_q1 + q2 * u2_q1 + q3 * u3_q1 + u1),
+        0.5 * (q0 * u1_q1 + q2 * u3_q1 - q3 * u2_q1),
+        0.5 * (q0 * u2_q1 + q3 * u1_q1 - q1 * u3_q1 - u3),
+        0.5 * (q0 * u3_q1 + q1 * u2_q1 + u2 - q2 * u1_q1),
+        m2 * u3_q1 + n2 * v3_q1 + n2_q1 * v3 - b1_q1 - m3 * u2_q1 - n3 * v2_q1 - n3_q1 * v2,
+        m3 * u1_q1 + n3 * v1_q1 + n3_q1 * v1 - b2_q1 - m1 * u3_q1 - n1 * v3_q1 - n1_q1 * v3,
+        m1 * u2_q1 + n1 * v2_q1 + n1_q1 * v2 - b3_q1 - m2 * u1_q1 - n2 * v1_q1 - n2_q1 * v1,
+        (
+            d1_1 * v1_q1
+            + d2_1 * v2_q1
+            + d3_1 * v3_q1
+            + w0 * (d3_1 * v2 - d2_1 * v3)
+            + w2 * (d2_1 * v1 - d1_1 * v2)
+            - w3 * (d1_1 * v3 - d3_1 * v1)
+        ),
+        (
+            d1_2 * v1_q1
+            + d2_2 * v2_q1
+            + d3_2 * v3_q1
+            + w0 * (d3_2 * v2 - d2_2 * v3)
+            + w2 * (d2_2 * v1 - d1_2 * v2)
+            - w3 * (d1_2 * v3 - d3_2 * v1)
+        ),
+        (
+            d1_3 * v1_q1
+            + d2_3 * v2_q1
+            + d3_3 * v3_q1
+            + w0 * (d3_3 * v2 - d2_3 * v3)
+            + w2 * (d2_3 * v1 - d1_3 * v2)
+            - w3 * (d1_3 * v3 - d3_3 * v1)
+        ),
+        -0.5 * (q1 * u1_q2 + q2 * u2_q2 + q3 * u3_q2 + u2),
+        0.5 * (q0 * u1_q2 + q2 * u3_q2 + u3 - q3 * u2_q2),
+        0.5 * (q0 * u2_q2 + q3 * u1_q2 - q1 * u3_q2),
+        0.5 * (q0 * u3_q2 + q1 * u2_q2 - q2 * u1_q2 - u1),
+        m2 * u3_q2 + n2 * v3_q2 + n2_q2 * v3 - b1_q2 - m3 * u2_q2 - n3 * v2_q2 - n3_q2 * v2,
+        m3 * u1_q2 + n3 * v1_q2 + n3_q2 * v1 - b2_q2 - m1 * u3_q2 - n1 * v3_q2 - n1_q2 * v3,
+        m1 * u2_q2 + n1 * v2_q2 + n1_q2 * v2 - b3_q2 - m2 * u1_q2 - n2 * v1_q2 - n2_q2 * v1,
+        (
+            d1_1 * v1_q2
+            + d2_1 * v2_q2
+            + d3_1 * v3_q2
+            + w0 * (d1_1 * v3 - d3_1 * v1)
+            + w3 * (d3_1 * v2 - d2_1 * v3)
+            - w1 * (d2_1 * v1 - d1_1 * v2)
+        ),
+        (
+            d1_2 * v1_q2
+            + d2_2 * v2_q2
+            + d3_2 * v3_q2
+            + w0 * (d1_2 * v3 - d3_2 * v1)
+            + w3 * (d3_2 * v2 - d2_2 * v3)
+            - w1 * (d2_2 * v1 - d1_2 * v2)
+        ),
+        (
+            d1_3 * v1_q2
+            + d2_3 * v2_q2
+            + d3_3 * v3_q2
+            + w0 * (d1_3 * v3 - d3_3 * v1)
+            + w3 * (d3_3 * v2 - d2_3 * v3)
+            - w1 * (d2_3 * v1 - d1_3 * v2)
+        ),
+        -0.5 * (q1 * u1_q3 + q2 * u2_q3 + q3 * u3_q3 + u3),
+        0.5 * (q0 * u1_q3 + q2 * u3_q3 - q3 * u2_q3 - u2),
+        0.5 * (q0 * u2_q3 + q3 * u1_q3 + u1 - q1 * u3_q3),
+        0.5 * (q0 * u3_q3 + q1 * u2_q3 - q2 * u1_q3),
+        m2 * u3_q3 + n2 * v3_q3 + n2_q3 * v3 - b1_q3 - m3 * u2_q3 - n3 * v2_q3 - n3_q3 * v2,
+        m3 * u1_q3 + n3 * v1_q3 + n3_q3 * v1 - b2_q3 - m1 * u3_q3 - n1 * v3_q3 - n1_q3 * v3,
+        m1 * u2_q3 + n1 * v2_q3 + n1_q3 * v2 - b3_q3 - m2 * u1_q3 - n2 * v1_q3 - n2_q3 * v1,
+        (
+            d1_1 * v1_q3
+            + d2_1 * v2_q3
+            + d3_1 * v3_q3
+            + w0 * (d2_1 * v1 - d1_1 * v2)
+            + w1 * (d1_1 * v3 - d3_1 * v1)
+            - w2 * (d3_1 * v2 - d2_1 * v3)
+        ),
+        (
+            d1_2 * v1_q3
+            + d2_2 * v2_q3
+            + d3_2 * v3_q3
+            + w0 * (d2_2 * v1 - d1_2 * v2)
+            + w1 * (d1_2 * v3 - d3_2 * v1)
+            - w2 * (d3_2 * v2 - d2_2 * v3)
+        ),
+        (
+            d1_3 * v1_q3
+            + d2_3 * v2_q3
+            + d3_3 * v3_q3
+            + w0 * (d2_3 * v1 - d1_3 * v2)
+            + w1 * (d1_3 * v3 - d3_3 * v1)
+            - w2 * (d3_3 * v2 - d2_3 * v3)
+        ),
+        -0.5 * (q1 * soft11 + q2 * soft12 + q3 * soft13),
+        0.5 * (q0 * soft11 + q2 * soft13 - q3 * soft12),
+        0.5 * (q0 * soft12 + q3 * soft11 - q1 * soft13),
+        0.5 * (q0 * soft13 + q1 * soft12 - q2 * soft11),
+        m2 * soft13 + n2 * soft16 - m3 * soft12 - n3 * soft15,
+        m3 * soft11 + n3 * soft14 - m1 * soft13 - n1 * soft16 - u3,
+        m1 * soft12 + n1 * soft15 + u2 - m2 * soft11 - n2 * soft14,
+        d1_1 * soft14 + d2_1 * soft15 + d3_1 * soft16,
+        d1_2 * soft14 + d2_2 * soft15 + d3_2 * soft16,
+        d1_3 * soft14 + d2_3 * soft15 + d3_3 * soft16,
+        -0.5 * (q1 * soft12 + q2 * soft22 + q3 * soft23),
+        0.5 * (q0 * soft12 + q2 * soft23 - q3 * soft22),
+        0.5 * (q0 * soft22 + q3 * soft12 - q1 * soft23),
+        0.5 * (q0 * soft23 + q1 * soft22 - q2 * soft12),
+        m2 * soft23 + n2 * soft26 + u3 - m3 * soft22 - n3 * soft25,
+        m3 * soft12 + n3 * soft24 - m1 * soft23 - n1 * soft26,
+        m1 * soft22 + n1 * soft25 - m2 * soft12 - n2 * soft24 - u1,
+        d1_1 * soft24 + d2_1 * soft25 + d3_1 * soft26,
+        d1_2 * soft24 + d2_2 * soft25 + d3_2 * soft26,
+        d1_3 * soft24 + d2_3 * soft25 + d3_3 * soft26,
+        -0.5 * (q1 * soft13 + q2 * soft23 + q3 * soft33),
+        0.5 * (q0 * soft13 + q2 * soft33 - q3 * soft23),
+        0.5 * (q0 * soft23 + q3 * soft13 - q1 * soft33),
+        0.5 * (q0 * soft33 + q1 * soft23 - q2 * soft13),
+        m2 * soft33 + n2 * soft36 - m3 * soft23 - n3 * soft35 - u2,
+        m3 * soft13 + n3 * soft34 + u1 - m1 * soft33 - n1 * soft36,
+        m1 * soft23 + n1 * soft35 - m2 * soft13 - n2 * soft34,
+        d1_1 * soft34 + d2_1 * soft35 + d3_1 * soft36,
+        d1_2 * soft34 + d2_2 * soft35 + d3_2 * soft36,
+        d1_3 * soft34 + d2_3 * soft35 + d3_3 * soft36,
+    )
+
+
+BY_FORCE = (
+    (0, 10), (1, 10), (2, 10), (3, 10), (4, 10), (5, 10), (6, 10), (7, 10), (8, 10), (9, 10),
+    (0, 11), (1, 11), (2, 11), (3, 11), (4, 11), (5, 11), (6, 11), (7, 11), (8, 11), (9, 11),
+    (0, 12), (1, 12), (2, 12), (3, 12), (4, 12), (5, 12), (6, 12), (7, 12), (8, 12), (9, 12),
+)
+
+
+def _by_force(q: Numbers, m: Numbers, d: Numbers, n: Numbers, v: Numbers, soft: Numbers) -> Numbers:
+    """Entries of the derivative of q', m', r' by the force."""
+    q0, q1, q2, q3 = q
+    m1, m2, m3 = m
+    d1_1, d1_2, d1_3, d2_1, d2_2, d2_3, d3_1, d3_2, d3_3 = d
+    n1, n2, n3 = n
+    v1, v2, v3 = v
+    (
+        _, _, _, soft14, soft15, soft16, _, _, soft24, soft25, soft26, _, soft34, soft35, soft36,
+        soft44, soft45, soft46, soft55, soft56, soft66,
+    ) = soft
+    u1_g1 = d1_1 * soft14 + d2_1 * soft15 + d3_1 * soft16
+    u1_g2 = d1_2 * soft14 + d2_2 * soft15 + d3_2 * soft16
+    u1_g3 = d1_3 * soft14 + d2_3 * soft15 + d3_3 * soft16
+    u2_g1 = d1_1 * soft24 + d2_1 * soft25 + d3_1 * soft26
+    u2_g2 = d1_2 * soft24 + d2_2 * soft25 + d3_2 * soft26
+    u2_g3 = d1_3 * soft24 + d2_3 * soft25 + d3_3 * soft26
+    u3_g1 = d1_1 * soft34 + d2_1 * soft35 + d3_1 * soft36
+    u3_g2 = d1_2 * soft34 + d2_2 * soft35 + d3_2 * soft36
+    u3_g3 = d1_3 * soft34 + d2_3 * soft35 + d3_3 * soft36
+    v1_g1 = d1_1 * soft44 + d2_1 * soft45 + d3_1 * soft46
+    v1_g2 = d1_2 * soft44 + d2_2 * soft45 + d3_2 * soft46
+    v1_g3 = d1_3 * soft44 + d2_3 * soft45 + d3_3 * soft46
+    v2_g1 = d1_1 * soft45 + d2_1 * soft55 + d3_1 * soft56
+    v2_g2 = d1_2 * soft45 + d2_2 * soft55 + d3_2 * soft56
+    v2_g3 = d1_3 * soft45 + d2_3 * soft55 + d3_3 * soft56
+    v3_g1 = d1_1 * soft46 + d2_1 * soft56 + d3_1 * soft66
+    v3_g2 = d1_2 * soft46 + d2_2 * soft56 + d3_2 * soft66
+    v3_g3 = d1_3 * soft46 + d2_3 * soft56 + d3_3 * soft66
+    return (
+        -0.5 * (q1 * u1_g1 + q2 * u2_g1 + q3 * u3_g1),
+        0.5 * (q0 * u1_g1 + q2 * u3_g1 - q3 * u2_g1),
+        0.5 * (q0 * u2_g1 + q3 * u1_g1 - q1 * u3_g1),
+        0.5 * (q0 * u3_g1 + q1 * u2_g1 - q2 * u1_g1),
+        d2_1 * v3 + m2 * u3_g1 + n2 * v3_g1 - d3_1 * v2 - m3 * u2_g1 - n3 * v2_g1,
+        d3_1 * v1 + m3 * u1_g1 + n3 * v1_g1 - d1_1 * v3 - m1 * u3_g1 - n1 * v3_g1,
+        d1_1 * v2 + m1 * u2_g1 + n1 * v2_g1 - d2_1 * v1 - m2 * u1_g1 - n2 * v1_g1,
+        d1_1 * v1_g1 + d2_1 * v2_g1 + d3_1 * v3_g1,
+        d1_2 * v1_g1 + d2_2 * v2_g1 + d3_2 * v3_g1,
+        d1_3 * v1_g1 + d2_3 * v2_g1 + d3_3 * v3_g1,
+        -0.5 * (q1 * u1_g2 + q2 * u2_g2 + q3 * u3_g2),
+        0.5 * (q0 * u1_g2 + q2 * u3_g2 - q3 * u2_g2),
+        0.5 * (q0 * u2_g2 + q3 * u1_g2 - q1 * u3_g2),
+        0.5 * (q0 * u3_g2 + q1 * u2_g2 - q2 * u1_g2),
+        d2_2 * v3 + m2 * u3_g2 + n2 * v3_g2 - d3_2 * v2 - m3 * u2_g2 - n3 * v2_g2,
+        d3_2 * v1 + m3 * u1_g2 + n3 * v1_g2 - d1_2 * v3 - m1 * u3_g2 - n1 * v3_g2,
+        d1_2 * v2 + m1 * u2_g2 + n1 * v2_g2 - d2_2 * v1 - m2 * u1_g2 - n2 * v1_g2,
+        d1_1 * v1_g2 + d2_1 * v2_g2 + d3_1 * v3_g2,
+        d1_2 * v1_g2 + d2_2 * v2_g2 + d3_2 * v3_g2,
+        d1_3 * v1_g2 + d2_3 * v2_g2 + d3_3 * v3_g2,
+        -0.5 * (q1 * u1_g3 + q2 * u2_g3 + q3 * u3_g3),
+        0.5 * (q0 * u1_g3 + q2 * u3_g3 - q3 * u2_g3),
+        0.5 * (q0 * u2_g3 + q3 * u1_g3 - q1 * u3_g3),
+        0.5 * (q0 * u3_g3 + q1 * u2_g3 - q2 * u1_g3),
+        d2_3 * v3 + m2 * u3_g3 + n2 * v3_g3 - d3_3 * v2 - m3 * u2_g3 - n3 * v2_g3,
+        d3_3 * v1 + m3 * u1_g3 + n3 * v1_g3 - d1_3 * v3 - m1 * u3_g3 - n1 * v3_g3,
+        d1_3 * v2 + m1 * u2_g3 + n1 * v2_g3 - d2_3 * v1 - m2 * u1_g3 - n2 * v1_g3,
+        d1_1 * v1_g3 + d2_1 * v2_g3 + d3_1 * v3_g3,
+        d1_2 * v1_g3 + d2_2 * v2_g3 + d3_2 * v3_g3,
+        d1_3 * v1_g3 + d2_3 * v2_g3 + d3_3 * v3_g3,
+    )
+
+
+def _rows(name: str, value: ArrayLike, lengths: tuple[int, ...]) -> Numbers:
+    """The components of an array: floats where it has one axis, else arrays."""
+    array = np.asarray(value, dtype=float)
+    if array.ndim == 0 or len(array) not in lengths:
+        wanted = " or ".join(f"({length}, ...)" for length in lengths)
+        raise ValueError(f"{name} must have the shape {wanted}, not {array.shape}")
+    rows: Numbers = array.tolist() if array.ndim == 1 else list(array)
+    return rows
+
+
+def _stack(rows: Numbers) -> Array:
+    """One array of components, floats spread over the arrays' shape."""
+    shapes = [row.shape for row in rows if isinstance(row, np.ndarray)]
+    if not shapes:
+        return np.array(rows)
+    out = np.empty((len(rows), *np.broadcast_shapes(*shapes)))
+    for row, value in zip(out, rows, strict=True):
+        row[...] = value
+    return out
+
+
+def _law(m: Numbers, n: Numbers, c: Constants, linear: bool) -> tuple[Numbers, Numbers]:
+    """The strains u and v under the loads."""
+    if linear:
+        found = _linear_strains((*m, *n), c)
+        return found[:3], found[3:]
+    u, v = strains(_stack(m), _stack(n), c)
+    if u.ndim == v.ndim == 1:
+        return u.tolist(), v.tolist()
+    return u, v  # type: ignore[return-value]
+
+
+def _tangent(m: Numbers, n: Numbers, c: Constants, linear: bool) -> Numbers:
+    """The entries of d(u, v)/d(m, n) on and above the diagonal, row by row."""
+    if linear:
+        return _linear_compliance(c)
+    soft = compliance(_stack(m), _stack(n), c)
+    if soft.ndim == 2:
+        soft = soft.tolist()
+    return [soft[i][j] for i in range(6) for j in range(i, 6)]
+
+
+def _matrix(size: int, entries: Sequence[tuple[int, int]], values: Numbers) -> Array:
+    """A matrix of ``size`` rows from the entries that are not zero."""
+    shapes = [value.shape for value in values if isinstance(value, np.ndarray)]
+    out = np.zeros((size, size, *np.broadcast_shapes(*shapes)))
+    for (i, j), value in zip(entries, values, strict=True):
+        if i < size:
+            out[i, j] = value
+    return out
+
+
+def _field(name: str, value: Field | None, s: Any) -> Numbers:
+    """The components at s of a vector that is constant, given at every s, or a function of s."""
+    if value is None:
+        return 0.0, 0.0, 0.0
+    return _rows(name, value(s) if callable(value) else value, (3,))
+
+
+def _loads_at(
+    s: Any, state: ArrayLike, force: Field | None
+) -> tuple[Numbers, Numbers, Numbers, Numbers]:
+    """Quaternion, couple, frame and force in the directors; which rows the state has is checked."""
+    x = _rows("state", state, (10, 13))
+    if (len(x) == 13) != (force is None):
+        raise ValueError(
+            "a state of 10 rows needs the force; one of 13 carries it in its last three"
+            f" (here: {len(x)} rows, force {'not ' if force is None else ''}given)"
+        )
+    d = _frame(x[:4])
+    n = x[10:] if force is None else _field("force", force, s)
+    return x[:4], x[4:7], d, _in_directors(d, n)
+
+
+def frame(state: ArrayLike) -> Array:
+    """The directors, (3, 3, ...): column k - 1 is d_k in the fixed basis.
+
+    state (10, ...) or (13, ...) as in `rates`; its quaternion need not be of norm one.
+    """
+    d = _stack(_frame(_rows("state", state, (10, 13))[:4]))
+    return d.reshape(3, 3, *d.shape[1:]).swapaxes(0, 1)
+
+
+def loads(s: Any, state: ArrayLike, force: Field | None = None) -> Pair:
+    """Couple and force in the directors, m (3, ...) and n (3, ...): what `strains` takes."""
+    _, m, _, n = _loads_at(s, state, force)
+    return _stack(m), _stack(n)
+
+
+def rates(
+    s: Any,
+    state: ArrayLike,
+    constants: Constants,
+    force: Field | None = None,
+    body_force: Field | None = None,
+    body_couple: Field | None = None,
+    *,
+    linear: bool = False,
+) -> Array:
+    """d(state)/ds of a rod in equilibrium, in the shape of the state.
+
+    s is the place, a number or an array; state holds in its rows
+
+        0 to 3    q, the quaternion of the frame: not zero, its norm is kept and plays no part
+        4 to 6    m, the couple in the directors, force times length
+        7 to 9    r, the center line in the fixed basis
+        10 to 12  n, the force in the fixed basis, where the state carries it
+
+    and any trailing shape: rods, nodes, both. With 10 rows the force is an argument (the end load
+    plus what body force lies beyond s); with 13 rows it is integrated, n' = -body_force. force,
+    body_force and body_couple are in the fixed basis, per length where they are of the body: three
+    numbers, an array (3, ...) over s, or a function of s that answers either. linear = True drops
+    the limit: strains K^-1 (m, n)/gamma for every load. As `solve_ivp` and `solve_bvp` want it:
+
+        fun = lambda s, x: rates(s, x, constants, force)
+
+    Raises ValueError for other shapes, and for a force both given and carried.
+    """
+    q, m, d, n = _loads_at(s, state, force)
+    carried = force is None
+    if body_force is not None and not carried:
+        raise ValueError("body_force changes a force that the state carries, in 13 rows, only")
+    b = _in_directors(d, _field("body_couple", body_couple, s))
+    u, v = _law(m, n, constants, linear)
+    found = _rates(q, m, d, n, b, u, v)
+    if carried:
+        found = (*found, *(-f for f in _field("body_force", body_force, s)))
+        return _stack(found) + 0.0
+    return _stack(found)
+
+
+def jacobian(
+    s: Any,
+    state: ArrayLike,
+    constants: Constants,
+    force: Field | None = None,
+    body_force: Field | None = None,
+    body_couple: Field | None = None,
+    *,
+    linear: bool = False,
+) -> Array:
+    """The derivative of `rates` by the state, (10, 10, ...) or (13, 13, ...).
+
+    Arguments as there; entry (i, j) is that of row i by row j. body_force plays no part.
+    """
+    q, m, d, n = _loads_at(s, state, force)
+    b = _in_directors(d, _field("body_couple", body_couple, s))
+    u, v = _law(m, n, constants, linear)
+    soft = _tangent(m, n, constants, linear)
+    entries, values = list(BY_STATE), list(_by_state(q, m, d, n, b, u, v, soft))
+    if force is None:
+        entries += BY_FORCE
+        values += _by_force(q, m, d, n, v, soft)
+    return _matrix(13 if force is None else 10, entries, values)

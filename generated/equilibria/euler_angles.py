@@ -1,0 +1,594 @@
+"""A rod in equilibrium under the force N g_3, by Euler angles: rates and Jacobian.
+
+Made by: rodproof generate
+
+The reduced system of the paper, for any gamma. The angles are singular where sin(theta) = 0, and
+slow near it; the module directors is not.
+
+Statements it rests on (verdict; as corrected if refuted): euler-n proved, euler-u1 proved,
+euler-u2 reading, euler-u3 proved, ode-phi proved, ode-theta refuted, ode-psi proved, ode-M1
+proved, ode-M2 proved, ode-M3 proved, const-u-mu proved, const-u-3 proved, const-v-mu proved,
+const-v-3 proved, wstar-gradient proved.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+Array = np.ndarray[Any, np.dtype[Any]]
+Pair = tuple[Array, Array]
+Rows = Sequence[Array]
+Inputs = dict[str, ArrayLike]
+
+BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
+TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
+HEADS = {"m": (3,), "n": (3,), "u": (3,), "v": (3,), "soft": (6, 6)}
+
+
+@dataclass(frozen=True)
+class Constants:
+    """The seven constants of the rod, checked on construction (ValueError).
+
+    alpha, beta and iota are lengths, gamma is a force, zeta, eta and p are plain numbers; all but
+    iota are positive and beta^2 eta^2 - iota^2 > 0.
+    """
+
+    alpha: float
+    beta: float
+    zeta: float
+    eta: float
+    iota: float
+    gamma: float
+    p: float
+    chirality: float = field(init=False, repr=False, compare=False)
+    gap: float = field(init=False, repr=False, compare=False)
+    n3_dilates: float = field(init=False, repr=False, compare=False)
+    m3_contracts: float = field(init=False, repr=False, compare=False)
+    per_alpha: float = field(init=False, repr=False, compare=False)
+    per_beta: float = field(init=False, repr=False, compare=False)
+    per_zeta: float = field(init=False, repr=False, compare=False)
+    per_eta: float = field(init=False, repr=False, compare=False)
+    per_gap: float = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        for name in ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p"):
+            value = float(getattr(self, name))
+            if not math.isfinite(value) or (value <= 0 and name != "iota"):
+                rule = "a finite number" if name == "iota" else "positive and finite"
+                raise ValueError(f"Constants: {name} must be {rule}, not {value}")
+            object.__setattr__(self, name, value)
+        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota))
+        alpha, beta, zeta, eta, iota = exact
+        if not beta**2 * eta**2 - iota**2 > 0:
+            raise ValueError(
+                "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
+                f" not beta={self.beta}, eta={self.eta}, iota={self.iota}"
+            )
+        derived = {
+            "chirality": iota / beta / eta,
+            "gap": (beta**2 * eta**2 - iota**2) / beta**2 / eta**2,
+            "n3_dilates": beta**2 * eta / (beta**2 * eta**2 - iota**2),
+            "m3_contracts": eta * iota / (beta**2 * eta**2 - iota**2),
+            "per_alpha": 1 / alpha,
+            "per_beta": 1 / beta,
+            "per_zeta": 1 / zeta,
+            "per_eta": 1 / eta,
+            "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
+        }
+        for name, ratio in derived.items():  # exact, then rounded once
+            if abs(ratio) >= 2**1023:
+                raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
+            object.__setattr__(self, name, float(ratio))
+
+
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
+    """Loads over their moduli, the linear rod's strains, and Q* in squares."""
+    m1, m2, m3, n1, n2, n3 = loads
+    mu_1 = c.per_alpha * m1
+    mu_2 = c.per_alpha * m2
+    mu_3 = c.per_beta * m3
+    nu_1 = c.per_zeta * n1
+    nu_2 = c.per_zeta * n2
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    nu_3 = c.per_eta * n3
+    q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2 + nu_1**2 + nu_2**2
+    return mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3, q_star
+
+
+def _soften(y: Array, c: Constants) -> Rows:
+    """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
+    tiny = TINY[y.dtype]
+    larger = np.maximum(y, c.gamma)
+    ratio = np.maximum(tiny, np.minimum(y, c.gamma) / larger)
+    power = np.exp(c.p * np.log(ratio))
+    factor = np.exp(-np.log1p(power) / c.p) / larger
+    return power, factor
+
+
+def _exponent(rows: Rows) -> Array:
+    """The power of two above the largest magnitude in each column."""
+    largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
+    return np.frexp(largest)[1]
+
+
+def _balanced(
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+) -> tuple[Rows, Array, Array, Array]:
+    """Values of ``form``, the root of its last one, and the radius and its square.
+
+    Where squares would overflow or underflow the inputs are taken times a power of two, a factor
+    that the values and their root share and that later cancels; the radius is free of it.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        *values, square = form(inputs, c)
+        tiny = TINY[square.dtype]
+        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
+            size = np.sqrt(square)
+            return values, size, size, square
+        power = _exponent(inputs)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        power = power + _exponent(values)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
+        size = np.sqrt(square)
+        radius = np.ldexp(size, power)
+        return values, np.maximum(size, tiny), radius, radius * radius
+
+
+def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
+    """The inputs as float arrays of one type, components first, and the trailing shape."""
+    arrays = {name: np.asarray(value) for name, value in inputs.items()}
+    for name, array in arrays.items():
+        head = HEADS[name]
+        if array.dtype.kind not in "iuf" or array.shape[: len(head)] != head:
+            wanted = ", ".join([*map(str, head), "..."])
+            kind = f"{array.dtype} of shape {array.shape}"
+            raise ValueError(f"{name} must hold real numbers in the shape ({wanted}), not {kind}")
+    dtype = np.float32 if np.result_type(*arrays.values()) == np.float32 else np.float64
+    try:
+        shape = np.broadcast_shapes(*(a.shape[len(HEADS[name]) :] for name, a in arrays.items()))
+    except ValueError:
+        shapes = " and ".join(f"{name} {a.shape}" for name, a in arrays.items())
+        raise ValueError(f"{shapes} do not broadcast after their first axis") from None
+    ready = []
+    for name, array in arrays.items():
+        head = HEADS[name]
+        fill = (1,) * (len(head) + len(shape) - array.ndim)
+        array = array.reshape((*head, *fill, *array.shape[len(head) :]))
+        ready.append(np.broadcast_to(array, (*head, *shape)).astype(dtype, copy=False))
+    return ready, shape
+
+
+def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
+    """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
+    shapes = [(*HEADS[name], *shape) for name in names]
+    if out is None:
+        return [np.empty(wanted, dtype) for wanted in shapes]
+    given = out if isinstance(out, tuple) else (out,)
+    if len(given) != len(names):
+        raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
+    for name, array, wanted in zip(names, given, shapes, strict=True):
+        kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
+        if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
+            raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
+    return list(given)
+
+
+def _apply(
+    body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
+) -> list[Array]:
+    """Runs ``body`` over blocks of points, straight into the results where that is safe."""
+    arrays, shape = _arguments(inputs)
+    results = _results(names, shape, arrays[0].dtype, out)
+    points = math.prod(shape)
+    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    direct = all(
+        r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
+    )
+    flat = [
+        (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
+        for name, r in zip(names, results, strict=True)
+    ]
+    with np.errstate(under="ignore"):
+        for start in range(0, points, BLOCK):
+            part = slice(start, start + BLOCK)
+            body([row[part] for row in rows], c, *(array[..., part] for array in flat))
+    if not direct:
+        for result, values in zip(results, flat, strict=True):
+            result[...] = values.reshape(result.shape)
+    return results
+
+
+def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
+    """(u, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n)."""
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
+    *_, factor = _soften(y, c)
+    reach = factor * y / size
+    bend = c.per_alpha * reach
+    turn = c.per_beta * reach
+    shear = c.per_zeta * reach
+    extend = c.per_eta * reach
+    np.multiply(bend, mu_1, out=u[0])
+    np.multiply(bend, mu_2, out=u[1])
+    np.multiply(turn, twist, out=u[2])
+    np.multiply(nu_1, shear, out=v[0])
+    np.multiply(nu_2, shear, out=v[1])
+    np.add(dilatation * extend, 1, out=v[2])
+
+
+def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+    """Strains u, v under the loads m, n (eq:uconst to eq:v3const).
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, v (3, ...) plain; at rest u = 0, v = (0, 0, 1).
+    """
+    u, v = _apply(_strains, {"m": m, "n": n}, constants, ("u", "v"), out)
+    return u, v
+
+
+def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+    """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y.
+
+    With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
+    the entries that would cancel are sums of squares.
+    """
+    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3 = values
+    power, factor = _soften(y, c)
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    per_size = 1 / size
+    tiny = TINY[y.dtype]
+    a1 = per_size * (mu_1 + tiny)
+    aa1 = a1**2
+    a2 = mu_2 * per_size
+    aa2 = a2**2
+    a3 = mu_3 * per_size
+    aa3 = a3**2
+    b1 = nu_1 * per_size
+    bb1 = b1**2
+    b2 = nu_2 * per_size
+    bb2 = b2**2
+    b3 = nu_3 * per_size
+    c3 = per_size * twist
+    c6 = dilatation * per_size
+    cc6 = c6**2
+    across = aa1 + aa2 + bb1 + bb2
+    coupled = aa3 + c.gap * cc6
+    share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
+    steep = -factor * share
+    d = np.empty((6, y.size), y.dtype)
+    np.multiply(c.per_alpha, a1, out=d[0])
+    np.multiply(c.per_alpha, a2, out=d[1])
+    np.multiply(c.per_beta, c3, out=d[2])
+    np.multiply(c.per_zeta, b1, out=d[3])
+    np.multiply(c.per_zeta, b2, out=d[4])
+    np.multiply(c.per_eta, c6, out=d[5])
+    for i in range(6):
+        np.multiply(steep * d[i], d[i:], out=soft[i, i:])
+    np.multiply(c.per_alpha**2 * factor, aa1 * remain + aa2 + bb1 + bb2 + coupled, out=soft[0, 0])
+    np.multiply(c.per_alpha**2 * factor, aa1 + aa2 * remain + bb1 + bb2 + coupled, out=soft[1, 1])
+    soft[2, 2] = c.per_beta**2 * factor * (c3**2 * remain + c.per_gap * (across + b3**2))
+    soft[2, 5] = c.per_beta * c.per_eta * factor * (
+        c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across)
+    )
+    np.multiply(c.per_zeta**2 * factor, aa1 + aa2 + bb1 * remain + bb2 + coupled, out=soft[3, 3])
+    np.multiply(c.per_zeta**2 * factor, aa1 + aa2 + bb1 + bb2 * remain + coupled, out=soft[4, 4])
+    np.multiply(c.per_eta**2 * factor, cc6 * remain + c.per_gap * (aa3 + across), out=soft[5, 5])
+    for i in range(1, 6):
+        soft[i, :i] = soft[:i, i]
+
+
+def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+    """Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
+    """
+    (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, ("soft",), out)
+    return soft
+
+
+Number = Any  # a float or an array
+Numbers = Sequence[Any]  # one for each component
+
+
+def _linear_strains(loads: Numbers, c: Constants) -> Numbers:
+    """(u, v) = K^-1 (m, n)/gamma + (0, e3): the law at rest, for every load."""
+    m1, m2, m3, n1, n2, n3 = loads
+    mu_1 = c.per_alpha * m1
+    mu_2 = c.per_alpha * m2
+    mu_3 = c.per_beta * m3
+    nu_1 = c.per_zeta * n1
+    nu_2 = c.per_zeta * n2
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    return (
+        c.per_alpha * mu_1 / c.gamma,
+        c.per_alpha * mu_2 / c.gamma,
+        c.per_beta * twist / c.gamma,
+        c.per_zeta * nu_1 / c.gamma,
+        c.per_zeta * nu_2 / c.gamma,
+        c.per_eta * dilatation / c.gamma + 1,
+    )
+
+
+def _linear_compliance(c: Constants) -> Numbers:
+    """K^-1/gamma, the entries on and above the diagonal, row by row."""
+    return (
+        c.per_alpha**2 / c.gamma,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        c.per_alpha**2 / c.gamma,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        c.per_beta**2 * c.per_gap / c.gamma,
+        0.0,
+        0.0,
+        -c.chirality * c.per_beta * c.per_eta * c.per_gap / c.gamma,
+        c.per_zeta**2 / c.gamma,
+        0.0,
+        0.0,
+        c.per_zeta**2 / c.gamma,
+        0.0,
+        c.per_eta**2 * c.per_gap / c.gamma,
+    )
+
+
+def _force(angles: Numbers, thrust: Number) -> Numbers:
+    """The force N g_3 in the intermediate frame."""
+    sin_theta, cos_theta, _, _ = angles
+    N = thrust
+    return (
+        -N * sin_theta,
+        0.0,
+        N * cos_theta,
+    )
+
+
+def _rates(angles: Numbers, couple: Numbers, thrust: Number, u: Numbers, v: Numbers) -> Numbers:
+    """phi', theta', psi', M', r'; u and v are the strains in the intermediate frame."""
+    sin_theta, cos_theta, sin_phi, cos_phi = angles
+    M1, M2, M3 = couple
+    N = thrust
+    u1, u2, u3 = u
+    v1, _, v3 = v
+    turn = -u1 / sin_theta
+    return (
+        turn,
+        u2,
+        u3 - cos_theta * turn,
+        M2 * cos_theta * turn - M3 * u2,
+        N * cos_theta * v1 + N * sin_theta * v3 - M1 * cos_theta * turn - M3 * sin_theta * turn,
+        0.0,
+        cos_phi * (cos_theta * v1 + sin_theta * v3),
+        sin_phi * (cos_theta * v1 + sin_theta * v3),
+        cos_theta * v3 - sin_theta * v1,
+    )
+
+
+BY_STATE = (
+    (6, 0), (7, 0), (0, 1), (1, 1), (2, 1), (3, 1), (4, 1), (6, 1), (7, 1), (8, 1), (0, 3), (1, 3),
+    (2, 3), (3, 3), (4, 3), (6, 3), (7, 3), (8, 3), (0, 4), (1, 4), (2, 4), (3, 4), (4, 4), (6, 4),
+    (7, 4), (8, 4), (0, 5), (1, 5), (2, 5), (3, 5), (4, 5), (6, 5), (7, 5), (8, 5),
+)
+
+
+def _by_state(
+    angles: Numbers, couple: Numbers, thrust: Number, u: Numbers, v: Numbers, soft: Numbers
+) -> Numbers:
+    """Entries of the derivative of the rates by phi, theta and M."""
+    sin_theta, cos_theta, sin_phi, cos_phi = angles
+    M1, M2, M3 = couple
+    N = thrust
+    u1, u2, _ = u
+    v1, _, v3 = v
+    (
+        soft11, soft12, soft13, soft14, _, soft16, soft22, soft23, soft24, _, soft26, soft33,
+        soft34, _, soft36, soft44, _, soft46, _, _, soft66,
+    ) = soft
+    turn = -u1 / sin_theta
+    u1_theta = -N * (cos_theta * soft14 + sin_theta * soft16)
+    u2_theta = -N * (cos_theta * soft24 + sin_theta * soft26)
+    u3_theta = -N * (cos_theta * soft34 + sin_theta * soft36)
+    v1_theta = -N * (cos_theta * soft44 + sin_theta * soft46)
+    v3_theta = -N * (cos_theta * soft46 + sin_theta * soft66)
+    turn_M1 = -soft11 / sin_theta
+    turn_M2 = -soft12 / sin_theta
+    turn_M3 = -soft13 / sin_theta
+    turn_theta = -(cos_theta * turn + u1_theta) / sin_theta
+    return (
+        -sin_phi * (cos_theta * v1 + sin_theta * v3),
+        cos_phi * (cos_theta * v1 + sin_theta * v3),
+        turn_theta,
+        u2_theta,
+        sin_theta * turn + u3_theta - cos_theta * turn_theta,
+        M2 * cos_theta * turn_theta - M2 * sin_theta * turn - M3 * u2_theta,
+        (
+            M1 * sin_theta * turn
+            + N * cos_theta * v1_theta
+            + N * cos_theta * v3
+            + N * sin_theta * v3_theta
+            - M3 * cos_theta * turn
+            - N * sin_theta * v1
+            - turn_theta * (M1 * cos_theta + M3 * sin_theta)
+        ),
+        cos_phi * (cos_theta * v1_theta + cos_theta * v3 + sin_theta * v3_theta - sin_theta * v1),
+        sin_phi * (cos_theta * v1_theta + cos_theta * v3 + sin_theta * v3_theta - sin_theta * v1),
+        cos_theta * v3_theta - cos_theta * v1 - sin_theta * v1_theta - sin_theta * v3,
+        turn_M1,
+        soft12,
+        soft13 - cos_theta * turn_M1,
+        M2 * cos_theta * turn_M1 - M3 * soft12,
+        (
+            N * cos_theta * soft14
+            + N * sin_theta * soft16
+            - cos_theta * turn
+            - turn_M1 * (M1 * cos_theta + M3 * sin_theta)
+        ),
+        cos_phi * (cos_theta * soft14 + sin_theta * soft16),
+        sin_phi * (cos_theta * soft14 + sin_theta * soft16),
+        cos_theta * soft16 - sin_theta * soft14,
+        turn_M2,
+        soft22,
+        soft23 - cos_theta * turn_M2,
+        M2 * cos_theta * turn_M2 + cos_theta * turn - M3 * soft22,
+        (
+            N * cos_theta * soft24
+            + N * sin_theta * soft26
+            - turn_M2 * (M1 * cos_theta + M3 * sin_theta)
+        ),
+        cos_phi * (cos_theta * soft24 + sin_theta * soft26),
+        sin_phi * (cos_theta * soft24 + sin_theta * soft26),
+        cos_theta * soft26 - sin_theta * soft24,
+        turn_M3,
+        soft23,
+        soft33 - cos_theta * turn_M3,
+        M2 * cos_theta * turn_M3 - M3 * soft23 - u2,
+        (
+            N * cos_theta * soft34
+            + N * sin_theta * soft36
+            - sin_theta * turn
+            - turn_M3 * (M1 * cos_theta + M3 * sin_theta)
+        ),
+        cos_phi * (cos_theta * soft34 + sin_theta * soft36),
+        sin_phi * (cos_theta * soft34 + sin_theta * soft36),
+        cos_theta * soft36 - sin_theta * soft34,
+    )
+
+
+def _rows(name: str, value: ArrayLike, lengths: tuple[int, ...]) -> Numbers:
+    """The components of an array: floats where it has one axis, else arrays."""
+    array = np.asarray(value, dtype=float)
+    if array.ndim == 0 or len(array) not in lengths:
+        wanted = " or ".join(f"({length}, ...)" for length in lengths)
+        raise ValueError(f"{name} must have the shape {wanted}, not {array.shape}")
+    rows: Numbers = array.tolist() if array.ndim == 1 else list(array)
+    return rows
+
+
+def _stack(rows: Numbers) -> Array:
+    """One array of components, floats spread over the arrays' shape."""
+    shapes = [row.shape for row in rows if isinstance(row, np.ndarray)]
+    if not shapes:
+        return np.array(rows)
+    out = np.empty((len(rows), *np.broadcast_shapes(*shapes)))
+    for row, value in zip(out, rows, strict=True):
+        row[...] = value
+    return out
+
+
+def _law(m: Numbers, n: Numbers, c: Constants, linear: bool) -> tuple[Numbers, Numbers]:
+    """The strains u and v under the loads."""
+    if linear:
+        found = _linear_strains((*m, *n), c)
+        return found[:3], found[3:]
+    u, v = strains(_stack(m), _stack(n), c)
+    if u.ndim == v.ndim == 1:
+        return u.tolist(), v.tolist()
+    return u, v  # type: ignore[return-value]
+
+
+def _tangent(m: Numbers, n: Numbers, c: Constants, linear: bool) -> Numbers:
+    """The entries of d(u, v)/d(m, n) on and above the diagonal, row by row."""
+    if linear:
+        return _linear_compliance(c)
+    soft = compliance(_stack(m), _stack(n), c)
+    if soft.ndim == 2:
+        soft = soft.tolist()
+    return [soft[i][j] for i in range(6) for j in range(i, 6)]
+
+
+def _matrix(size: int, entries: Sequence[tuple[int, int]], values: Numbers) -> Array:
+    """A matrix of ``size`` rows from the entries that are not zero."""
+    shapes = [value.shape for value in values if isinstance(value, np.ndarray)]
+    out = np.zeros((size, size, *np.broadcast_shapes(*shapes)))
+    for (i, j), value in zip(entries, values, strict=True):
+        if i < size:
+            out[i, j] = value
+    return out
+
+
+def _at(
+    state: ArrayLike, thrust: ArrayLike
+) -> tuple[int, Numbers, Numbers, Numbers, Number]:
+    """Rows, sines and cosines, couple, force in the intermediate frame, thrust; checked."""
+    x = _rows("state", state, (6, 9))
+    one = isinstance(x[1], float)
+    sin, cos = (math.sin, math.cos) if one else (np.sin, np.cos)
+    angles = sin(x[1]), cos(x[1]), sin(x[0]), cos(x[0])
+    _off_the_pole(x[1], angles[0])
+    given = np.asarray(thrust, dtype=float)
+    N = given if given.ndim else float(given)
+    return len(x), angles, x[3:6], _force(angles, N), N
+
+
+def _off_the_pole(theta: Number, sine: Number) -> None:
+    """Refuses sin(theta) = 0, as far as theta as a float can tell, where phi' is not determined."""
+    bound = np.maximum(2**-51 * np.abs(theta), 2.0**-1000)
+    bad = np.flatnonzero(~(np.abs(sine) > bound))
+    if bad.size:
+        first = np.ravel(theta)[bad[0]]
+        raise ValueError(
+            f"Euler angles are singular at sin(theta) = 0: {bad.size} of {np.size(theta)} states"
+            f" are there, the first with theta = {first!r}; the module directors has no such place"
+        )
+
+
+def rates(
+    s: Any,
+    state: ArrayLike,
+    constants: Constants,
+    thrust: ArrayLike,
+    *,
+    linear: bool = False,
+) -> Array:
+    """d(state)/ds of a rod in equilibrium under the force N g_3, in the shape of the state.
+
+    s plays no part (the rod is uniform and the force dead); state holds in its rows
+
+        0 to 2    phi, theta, psi; the directors are R_3(phi) R_2(theta) R_3(psi)
+        3 to 5    M1, M2, M3, the couple in the intermediate frame R_3(phi) R_2(theta)
+        6 to 8    r, the center line in the fixed basis, if wanted
+
+    and any trailing shape; thrust is N, a number or an array of that shape. linear = True drops
+    the limit: strains K^-1 (m, n)/gamma for every load. M3' is zero. As `solve_ivp` and
+    `solve_bvp` want it:
+
+        fun = lambda s, x: rates(s, x, constants, thrust)
+
+    Raises ValueError where sin(theta) = 0, which these angles cannot pass, and for other shapes.
+    """
+    rows, angles, M, n, N = _at(state, thrust)
+    u, v = _law(M, n, constants, linear)
+    return _stack(_rates(angles, M, N, u, v)[:rows])
+
+
+def jacobian(
+    s: Any,
+    state: ArrayLike,
+    constants: Constants,
+    thrust: ArrayLike,
+    *,
+    linear: bool = False,
+) -> Array:
+    """The derivative of `rates` by the state, (6, 6, ...) or (9, 9, ...).
+
+    Arguments as there; entry (i, j) is that of row i by row j.
+    """
+    rows, angles, M, n, N = _at(state, thrust)
+    u, v = _law(M, n, constants, linear)
+    soft = _tangent(M, n, constants, linear)
+    return _matrix(rows, BY_STATE, _by_state(angles, M, N, u, v, soft))
