@@ -24,7 +24,8 @@ $tuples
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
-BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
+BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
+ROWS = $rows  # of scratch
 $limits
 $heads
 """)
@@ -161,7 +162,7 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
 ) -> tuple[Rows, Array, Array, Array]:
     """Values of ``form``, the root of its last one, and the radius and its square.
 
@@ -169,15 +170,15 @@ def _balanced(
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c)
+        *values, square = form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
-            size = np.sqrt(square)
+            size = np.sqrt(square, out=s[-1])
             return values, size, size, square
         power = _exponent(inputs)
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
         power = power + _exponent(values)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
@@ -190,7 +191,7 @@ class _PastLimit(Exception):
 
 def _within_limit(q: Array) -> Array:
     """Q where all of it is below the limit."""
-    if not (q < 1).all():
+    if not q.max() < 1:
         raise _PastLimit
     return q
 '''
@@ -198,7 +199,9 @@ def _within_limit(q: Array) -> Array:
 NAN = '''\
 def _within_limit(q: Array) -> Array:
     """Q below the limit, nan at and past it."""
-    return np.where(q < 1, q, np.nan)
+    if not q.max() < 1:
+        q[~(q < 1)] = np.nan
+    return q
 '''
 
 PAST_LIMIT = Template('''\
@@ -293,9 +296,13 @@ def _apply(
         (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
         for name, r in zip(names, results, strict=True)
     ]
+    blocks = max(1, -(-points // BLOCK))
+    size = max(1, -(-points // blocks))  # blocks of one length
+    scratch = np.empty((ROWS, size), arrays[0].dtype)
     with np.errstate(under="ignore"):
-        for start in range(0, points, BLOCK):
-            part = slice(start, start + BLOCK)
+        for start in range(0, points, size):
+            part = slice(start, min(start + size, points))
+            work = scratch[:, : part.stop - start]
 $run
     if not direct:
         for result, values in zip(results, flat, strict=True):
@@ -319,11 +326,15 @@ def _apply(
         (r if direct else np.empty(r.shape, r.dtype)).reshape(points, *HEADS[name])
         for name, r in zip(names, results, strict=True)
     ]
+    blocks = max(1, -(-points // BLOCK))
+    size = max(1, -(-points // blocks))  # blocks of one length
+    scratch = np.empty((ROWS, size), arrays[0].dtype)
+    made = [np.empty((*HEADS[name], size), arrays[0].dtype) for name in names]
     with np.errstate(under="ignore"):
-        for start in range(0, points, BLOCK):
-            part = slice(start, min(start + BLOCK, points))
-            size = part.stop - part.start
-            flat = [np.empty((*HEADS[name], size), arrays[0].dtype) for name in names]
+        for start in range(0, points, size):
+            part = slice(start, min(start + size, points))
+            work = scratch[:, : part.stop - start]
+            flat = [block[..., : part.stop - start] for block in made]
 $run
             for values, block in zip(whole, flat, strict=True):
                 values[part] = np.moveaxis(block, -1, 0)
@@ -336,9 +347,9 @@ $run
 #: The call of the body for each policy at the limit and layout, by how an output is written to.
 RUN_RAISE = Template("""\
             try:
-                body([row[part] for row in rows], c, *$outputs)
+                body([row[part] for row in rows], c, work, *$outputs)
             except _PastLimit:
                 raise _past_limit(rows, c, shape) from None""")
 RUN = Template("""\
-            body([row[part] for row in rows], c, *$outputs)""")
+            body([row[part] for row in rows], c, work, *$outputs)""")
 OUTPUTS = {"first": "(array[..., part] for array in flat)", "last": "flat"}

@@ -55,10 +55,11 @@ class Printer:
                 below.append(base ** (-exponent))
             else:
                 above.append(factor)
-        above.sort(key=lambda f: not self._scalar(f))
+        above.sort(key=lambda f: not self.scalar(f))
         return [coefficient, *above] if coefficient != 1 else above, below
 
-    def _scalar(self, expr: sp.Expr) -> bool:
+    def scalar(self, expr: sp.Expr) -> bool:
+        """Whether the expression holds no array."""
         return all(s.name in self.spelling for s in expr.free_symbols)
 
     def _print(self, expr: sp.Expr) -> tuple[str, int]:
@@ -106,7 +107,7 @@ class Printer:
         (value, condition), (other, last) = expr.args
         if last != sp.true:
             raise TypeError(f"the NumPy printer takes a choice of two, not {expr}")
-        if self._scalar(condition.lhs):
+        if self.scalar(condition.lhs):
             condition = condition.reversed
         test = f"{self.text(condition.lhs)} {condition.rel_op} {self.text(condition.rhs)}"
         return f"np.where({test}, {self._number(value)}, {self._number(other)})", ATOM
@@ -115,7 +116,7 @@ class Printer:
         return f"{expr}.0" if expr.is_Integer else self.text(expr)
 
     def _call(self, function: str, expr: sp.Expr) -> str:
-        args = sorted(expr.args, key=lambda a: (self._scalar(a), sp.default_sort_key(a)))
+        args = sorted(expr.args, key=lambda a: (self.scalar(a), sp.default_sort_key(a)))
         return f"{function}({', '.join(self.text(a) for a in args)})"
 
 

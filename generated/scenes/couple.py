@@ -36,7 +36,8 @@ Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
-BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
+BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
+ROWS = 15  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 HEADS = {"m": (3,), "u": (3,), "v3": (), "w_star": (), "soft": (3, 3), "limit_gap": ()}
 
@@ -115,25 +116,37 @@ class Constants:
         return fraction, powers, start, slope, single
 
 
-def _reduce_loads(loads: Rows, c: Constants) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
     """Loads over their moduli, the linear rod's strains, and Q* in squares."""
     m1, m2, m3 = loads
-    mu_1 = c.per_alpha * m1
-    mu_2 = c.per_alpha * m2
-    mu_3 = c.per_beta * m3
-    dilatation = -c.m3_contracts * m3
-    twist = mu_3 - c.chirality * dilatation
-    q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2
+    mu_1 = np.multiply(c.per_alpha, m1, out=s[0])
+    mu_2 = np.multiply(c.per_alpha, m2, out=s[1])
+    mu_3 = np.multiply(c.per_beta, m3, out=s[4])
+    dilatation = np.multiply(-c.m3_contracts, m3, out=s[3])
+    twist = np.multiply(c.chirality, dilatation, out=s[2])
+    np.subtract(mu_3, twist, out=twist)
+    q_star = np.square(dilatation, out=s[5])
+    q_star *= c.gap
+    q_star += np.square(mu_1, out=s[6])
+    q_star += np.square(mu_2, out=s[6])
+    q_star += np.square(mu_3, out=s[6])
     return mu_1, mu_2, mu_3, dilatation, twist, q_star
 
 
-def _soften(y: Array, c: Constants) -> Rows:
+def _soften(y: Array, c: Constants, s: Rows) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
-    larger = np.maximum(y, c.gamma)
-    ratio = np.maximum(tiny, np.minimum(y, c.gamma) / larger)
-    power = np.exp(c.p * np.log(ratio))
-    factor = np.exp(-np.log1p(power) / c.p) / larger
+    larger = np.maximum(y, c.gamma, out=s[0])
+    ratio = np.minimum(y, c.gamma, out=s[1])
+    ratio /= larger
+    np.maximum(ratio, tiny, out=ratio)
+    power = np.log(ratio, out=s[2])
+    power *= c.p
+    np.exp(power, out=power)
+    factor = np.log1p(power, out=s[3])
+    factor /= -c.p
+    np.exp(factor, out=factor)
+    factor /= larger
     return ratio, power, factor
 
 
@@ -144,7 +157,7 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
 ) -> tuple[Rows, Array, Array, Array]:
     """Values of ``form``, the root of its last one, and the radius and its square.
 
@@ -152,15 +165,15 @@ def _balanced(
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c)
+        *values, square = form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
-            size = np.sqrt(square)
+            size = np.sqrt(square, out=s[-1])
             return values, size, size, square
         power = _exponent(inputs)
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
         power = power + _exponent(values)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
@@ -250,29 +263,35 @@ def _apply(
         (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
         for name, r in zip(names, results, strict=True)
     ]
+    blocks = max(1, -(-points // BLOCK))
+    size = max(1, -(-points // blocks))  # blocks of one length
+    scratch = np.empty((ROWS, size), arrays[0].dtype)
     with np.errstate(under="ignore"):
-        for start in range(0, points, BLOCK):
-            part = slice(start, start + BLOCK)
-            body([row[part] for row in rows], c, *(array[..., part] for array in flat))
+        for start in range(0, points, size):
+            part = slice(start, min(start + size, points))
+            work = scratch[:, : part.stop - start]
+            body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
     return results
 
 
-def _strains(loads: Rows, c: Constants, u: Array, v3: Array) -> None:
+def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> None:
     """(u, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 m."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*u, v3, *work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, _, dilatation, twist = values
-    *_, factor = _soften(y, c)
-    reach = factor * y / size
-    bend = c.per_alpha * reach
-    turn = c.per_beta * reach
-    extend = c.per_eta * reach
+    *_, factor = _soften(y, c, s[6:])
+    reach = factor if size is y else factor * y / size
+    bend = np.multiply(c.per_alpha, reach, out=s[4])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
+    turn = np.multiply(c.per_beta, reach, out=s[4])
     np.multiply(turn, twist, out=u[2])
-    np.add(dilatation * extend, 1, out=v3)
+    extend = np.multiply(c.per_eta, reach, out=s[9])
+    np.multiply(dilatation, extend, out=v3)
+    v3 += 1
 
 
 def strains(m: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
@@ -285,13 +304,17 @@ def strains(m: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair
     return u, v3
 
 
-def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
-    _, _, y, _ = _balanced(_reduce_loads, loads, c)
-    ratio, power, factor = _soften(y, c)
-    strain = factor * y
-    depth = np.log1p(power) - c.p * np.where(y <= c.gamma, 0.0, np.log(ratio))
-    np.multiply(strain * y, 1 - _work_share(depth, c), out=w_star)
+    s = [*work]
+    _, _, y, _ = _balanced(_reduce_loads, loads, c, s)
+    ratio, power, factor = _soften(y, c, s[6:])
+    strain = np.multiply(factor, y, out=s[9])
+    depth = np.log1p(power, out=s[8])
+    depth -= np.multiply(c.p, np.where(y <= c.gamma, 0.0, np.log(ratio)), out=s[7])
+    np.subtract(1, _work_share(depth, c), out=w_star)
+    w_star *= strain
+    w_star *= y
 
 
 def complementary_energy(m: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
@@ -303,38 +326,60 @@ def complementary_energy(m: ArrayLike, constants: Constants, out: Array | None =
     return w_star
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 m/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, dilatation, twist = values
-    _, power, factor = _soften(y, c)
-    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
-    per_size = 1 / size
+    _, power, factor = _soften(y, c, s[6:])
     tiny = TINY[y.dtype]
-    a1 = per_size * (mu_1 + tiny)
-    aa1 = a1**2
-    a2 = mu_2 * per_size
-    aa2 = a2**2
-    a3 = mu_3 * per_size
-    c3 = per_size * twist
-    c6 = dilatation * per_size
-    across = aa1 + aa2
-    coupled = a3**2 + c.gap * c6**2
-    share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
-    steep = -factor * share
-    d = np.empty((3, y.size), y.dtype)
+    d = work[10:13]
+    share = np.add(power, 1, out=s[5])
+    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
+    steep = np.negative(factor, out=s[6])
+    steep *= share
+    per_size = np.divide(1, size, out=s[5])
+    a1 = np.add(mu_1, tiny, out=s[0])
+    a1 *= per_size
     np.multiply(c.per_alpha, a1, out=d[0])
+    a2 = np.multiply(mu_2, per_size, out=s[1])
     np.multiply(c.per_alpha, a2, out=d[1])
+    c3 = np.multiply(per_size, twist, out=s[2])
     np.multiply(c.per_beta, c3, out=d[2])
     for i in range(3):
-        np.multiply(steep * d[i], d[i:], out=soft[i, i:])
-    np.multiply(c.per_alpha**2 * factor, aa1 * remain + aa2 + coupled, out=soft[0, 0])
-    np.multiply(c.per_alpha**2 * factor, aa1 + aa2 * remain + coupled, out=soft[1, 1])
-    np.multiply(c.per_beta**2 * factor, c.per_gap * across + c3**2 * remain, out=soft[2, 2])
+        np.multiply(steep, d[i], out=s[7])
+        np.multiply(s[7], d[i:], out=soft[i, i:])
+    remain = np.add(power, 1, out=s[6])
+    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
+    aa1 = np.square(a1, out=s[0])
+    aa2 = np.square(a2, out=s[1])
+    a3 = np.multiply(mu_3, per_size, out=s[4])
+    c6 = np.multiply(dilatation, per_size, out=s[3])
+    coupled = np.square(a3, out=s[4])
+    np.square(c6, out=s[3])
+    s[3] *= c.gap
+    coupled += s[3]
+    np.multiply(aa1, remain, out=soft[0, 0])
+    soft[0, 0] += aa2
+    soft[0, 0] += coupled
+    soft[0, 0] *= c.per_alpha**2
+    soft[0, 0] *= factor
+    np.multiply(aa2, remain, out=soft[1, 1])
+    np.add(aa1, soft[1, 1], out=soft[1, 1])
+    soft[1, 1] += coupled
+    soft[1, 1] *= c.per_alpha**2
+    soft[1, 1] *= factor
+    across = np.add(aa1, aa2, out=s[0])
+    np.multiply(c.per_gap, across, out=soft[2, 2])
+    np.square(c3, out=s[2])
+    s[2] *= remain
+    soft[2, 2] += s[2]
+    soft[2, 2] *= c.per_beta**2
+    soft[2, 2] *= factor
     for i in range(1, 3):
         soft[i, :i] = soft[:i, i]
 

@@ -43,7 +43,8 @@ Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
-BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
+BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
+ROWS = 18  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
 HEADS = {
@@ -153,49 +154,75 @@ class Constants:
         )
 
 
-def _reduce_loads(loads: Rows, c: Constants) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
     """Loads over their moduli, the linear rod's strains, and Q* in squares."""
     m1, m2, m3, n3 = loads
-    mu_1 = c.per_alpha * m1
-    mu_2 = c.per_alpha * m2
-    mu_3 = c.per_beta * m3
-    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
-    twist = mu_3 - c.chirality * dilatation
-    nu_3 = c.per_eta * n3
-    q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2
+    mu_1 = np.multiply(c.per_alpha, m1, out=s[0])
+    mu_2 = np.multiply(c.per_alpha, m2, out=s[1])
+    mu_3 = np.multiply(c.per_beta, m3, out=s[4])
+    dilatation = np.multiply(c.n3_dilates, n3, out=s[3])
+    dilatation -= np.multiply(c.m3_contracts, m3, out=s[5])
+    twist = np.multiply(c.chirality, dilatation, out=s[2])
+    np.subtract(mu_3, twist, out=twist)
+    nu_3 = np.multiply(c.per_eta, n3, out=s[5])
+    q_star = np.square(dilatation, out=s[6])
+    q_star *= c.gap
+    q_star += np.square(mu_1, out=s[7])
+    q_star += np.square(mu_2, out=s[7])
+    q_star += np.square(mu_3, out=s[7])
     return mu_1, mu_2, mu_3, dilatation, twist, nu_3, q_star
 
 
-def _soften(y: Array, c: Constants) -> Rows:
+def _soften(y: Array, c: Constants, s: Rows) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
-    larger = np.maximum(y, c.gamma)
-    ratio = np.maximum(tiny, np.minimum(y, c.gamma) / larger)
-    power = np.exp(c.p * np.log(ratio))
-    factor = np.exp(-np.log1p(power) / c.p) / larger
+    larger = np.maximum(y, c.gamma, out=s[0])
+    ratio = np.minimum(y, c.gamma, out=s[1])
+    ratio /= larger
+    np.maximum(ratio, tiny, out=ratio)
+    power = np.log(ratio, out=s[2])
+    power *= c.p
+    np.exp(power, out=power)
+    factor = np.log1p(power, out=s[3])
+    factor /= -c.p
+    np.exp(factor, out=factor)
+    factor /= larger
     return ratio, power, factor
 
 
-def _reduce_strains(rest: Rows, c: Constants) -> Rows:
+def _reduce_strains(rest: Rows, c: Constants, s: Rows) -> Rows:
     """Strains times their moduli, the linear rod's loads, and Q in squares."""
     u1, u2, u3, stretch = rest
-    kappa_1 = c.alpha * u1
-    kappa_2 = c.alpha * u2
-    kappa_3 = c.beta * u3
-    lam_3 = c.eta * stretch
-    torque = c.chirality * lam_3 + kappa_3
-    tension = c.chirality * torque + c.gap * lam_3
-    q = c.gap * lam_3**2 + kappa_1**2 + kappa_2**2 + torque**2
+    kappa_1 = np.multiply(c.alpha, u1, out=s[0])
+    kappa_2 = np.multiply(c.alpha, u2, out=s[1])
+    kappa_3 = np.multiply(c.beta, u3, out=s[4])
+    lam_3 = np.multiply(c.eta, stretch, out=s[5])
+    torque = np.multiply(c.chirality, lam_3, out=s[2])
+    torque += kappa_3
+    tension = np.multiply(c.chirality, torque, out=s[3])
+    tension += np.multiply(c.gap, lam_3, out=s[4])
+    q = np.square(lam_3, out=s[5])
+    q *= c.gap
+    q += np.square(kappa_1, out=s[4])
+    q += np.square(kappa_2, out=s[4])
+    q += np.square(torque, out=s[4])
     return kappa_1, kappa_2, torque, tension, q
 
 
-def _stiffen(q: Array, c: Constants) -> Rows:
+def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
     """Load over strain, gamma (1 - x^p)^(-1/p), by the growth x^p/(1 - x^p), x^2 = Q."""
     log_max = LOG_MAX[q.dtype]
     tiny = TINY[q.dtype]
-    growth = 1 / np.expm1(np.minimum(log_max, -0.5 * c.p * np.log(np.maximum(q, tiny))))
-    depth = np.log1p(growth)
-    factor = c.gamma * np.exp(depth / c.p)
+    growth = np.maximum(q, tiny, out=s[0])
+    np.log(growth, out=growth)
+    growth *= -0.5 * c.p
+    np.minimum(growth, log_max, out=growth)
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    depth = np.log1p(growth, out=s[1])
+    factor = np.divide(depth, c.p, out=s[2])
+    np.exp(factor, out=factor)
+    factor *= c.gamma
     return growth, depth, factor
 
 
@@ -216,7 +243,7 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
 ) -> tuple[Rows, Array, Array, Array]:
     """Values of ``form``, the root of its last one, and the radius and its square.
 
@@ -224,15 +251,15 @@ def _balanced(
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c)
+        *values, square = form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
-            size = np.sqrt(square)
+            size = np.sqrt(square, out=s[-1])
             return values, size, size, square
         power = _exponent(inputs)
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
         power = power + _exponent(values)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
@@ -274,16 +301,17 @@ class _PastLimit(Exception):
 
 def _within_limit(q: Array) -> Array:
     """Q where all of it is below the limit."""
-    if not (q < 1).all():
+    if not q.max() < 1:
         raise _PastLimit
     return q
 
 
 def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueError:
     """The error for strains at or past the limit: how many points, the first and its Q."""
-    rest = [*strains[:3], strains[3] - 1]
+    s = [*np.empty((8, strains[0].size), strains[0].dtype)]
+    rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
-        *_, q = _reduce_strains(rest, c)
+        *_, q = _reduce_strains(rest, c, s)
     bad = np.flatnonzero(~(q < 1))
     index = tuple(map(int, np.unravel_index(bad[0], shape)))
     first = f"the first at index {index} with Q = {float(q[bad[0]])!r}"
@@ -344,11 +372,15 @@ def _apply(
         (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
         for name, r in zip(names, results, strict=True)
     ]
+    blocks = max(1, -(-points // BLOCK))
+    size = max(1, -(-points // blocks))  # blocks of one length
+    scratch = np.empty((ROWS, size), arrays[0].dtype)
     with np.errstate(under="ignore"):
-        for start in range(0, points, BLOCK):
-            part = slice(start, start + BLOCK)
+        for start in range(0, points, size):
+            part = slice(start, min(start + size, points))
+            work = scratch[:, : part.stop - start]
             try:
-                body([row[part] for row in rows], c, *(array[..., part] for array in flat))
+                body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
             except _PastLimit:
                 raise _past_limit(rows, c, shape) from None
     if not direct:
@@ -357,19 +389,21 @@ def _apply(
     return results
 
 
-def _strains(loads: Rows, c: Constants, u: Array, v3: Array) -> None:
+def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> None:
     """(u, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n3)."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*u, v3, *work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, _, dilatation, twist, _ = values
-    *_, factor = _soften(y, c)
-    reach = factor * y / size
-    bend = c.per_alpha * reach
-    turn = c.per_beta * reach
-    extend = c.per_eta * reach
+    *_, factor = _soften(y, c, s[7:])
+    reach = factor if size is y else factor * y / size
+    bend = np.multiply(c.per_alpha, reach, out=s[4])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
+    turn = np.multiply(c.per_beta, reach, out=s[4])
     np.multiply(turn, twist, out=u[2])
-    np.add(dilatation * extend, 1, out=v3)
+    extend = np.multiply(c.per_eta, reach, out=s[10])
+    np.multiply(dilatation, extend, out=v3)
+    v3 += 1
 
 
 def strains(m: ArrayLike, n3: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
@@ -382,19 +416,20 @@ def strains(m: ArrayLike, n3: ArrayLike, constants: Constants, out: Pair | None 
     return u, v3
 
 
-def _loads(strains: Rows, c: Constants, m: Array, n3: Array) -> None:
+def _loads(strains: Rows, c: Constants, work: Array, m: Array, n3: Array) -> None:
     """(m, n3) = gamma (1 - Q^(p/2))^(-1/p) K (u, v3 - 1)."""
-    rest = [*strains[:3], strains[3] - 1]
+    s = [*m, n3, *work]
+    rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
-        kappa_1, kappa_2, torque, tension, q = _reduce_strains(rest, c)
+        kappa_1, kappa_2, torque, tension, q = _reduce_strains(rest, c, s)
     q = _within_limit(q)
-    *_, factor = _stiffen(q, c)
-    bend = c.alpha * factor
-    turn = c.beta * factor
-    extend = c.eta * factor
+    *_, factor = _stiffen(q, c, s[6:])
+    bend = np.multiply(c.alpha, factor, out=s[4])
     np.multiply(bend, kappa_1, out=m[0])
     np.multiply(bend, kappa_2, out=m[1])
+    turn = np.multiply(c.beta, factor, out=s[4])
     np.multiply(torque, turn, out=m[2])
+    extend = np.multiply(c.eta, factor, out=s[8])
     np.multiply(extend, tension, out=n3)
 
 
@@ -409,14 +444,16 @@ def loads(u: ArrayLike, v3: ArrayLike, constants: Constants, out: Pair | None = 
     return m, n3
 
 
-def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
+def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
-    rest = [*strains[:3], strains[3] - 1]
-    _, _, x, q = _balanced(_reduce_strains, rest, c)
+    s = [*work]
+    rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
+    _, _, x, q = _balanced(_reduce_strains, rest, c, s)
     q = _within_limit(q)
-    _, depth, factor = _stiffen(q, c)
-    load = factor * x
-    np.multiply(load * x, _work_share(depth, c), out=w)
+    _, depth, factor = _stiffen(q, c, s[6:])
+    load = np.multiply(factor, x, out=s[8])
+    np.multiply(load, x, out=w)
+    w *= _work_share(depth, c)
 
 
 def stored_energy(
@@ -430,13 +467,17 @@ def stored_energy(
     return w
 
 
-def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
-    _, _, y, _ = _balanced(_reduce_loads, loads, c)
-    ratio, power, factor = _soften(y, c)
-    strain = factor * y
-    depth = np.log1p(power) - c.p * np.where(y <= c.gamma, 0.0, np.log(ratio))
-    np.multiply(strain * y, 1 - _work_share(depth, c), out=w_star)
+    s = [*work]
+    _, _, y, _ = _balanced(_reduce_loads, loads, c, s)
+    ratio, power, factor = _soften(y, c, s[7:])
+    strain = np.multiply(factor, y, out=s[10])
+    depth = np.log1p(power, out=s[9])
+    depth -= np.multiply(c.p, np.where(y <= c.gamma, 0.0, np.log(ratio)), out=s[8])
+    np.subtract(1, _work_share(depth, c), out=w_star)
+    w_star *= strain
+    w_star *= y
 
 
 def complementary_energy(
@@ -450,32 +491,36 @@ def complementary_energy(
     return w_star
 
 
-def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u, v3 - 1)/x."""
-    rest = [*strains[:3], strains[3] - 1]
+    s = [*work]
+    rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
-        kappa_1, kappa_2, torque, tension, q = _reduce_strains(rest, c)
+        kappa_1, kappa_2, torque, tension, q = _reduce_strains(rest, c, s)
     q = _within_limit(q)
-    growth, _, factor = _stiffen(q, c)
-    steep = factor * growth
+    growth, _, factor = _stiffen(q, c, s[6:])
     tiny = TINY[q.dtype]
-    x = np.sqrt(np.maximum(q, tiny))
-    per_x = 1 / x
-    bend_per_x = c.alpha * per_x
-    turn_per_x = c.beta * per_x
-    extend_per_x = c.eta * per_x
-    t = np.empty((4, q.size), q.dtype)
+    t = work[:4]
+    steep = np.multiply(factor, growth, out=s[6])
+    x = np.maximum(q, tiny, out=s[5])
+    np.sqrt(x, out=x)
+    per_x = np.divide(1, x, out=s[5])
+    bend_per_x = np.multiply(c.alpha, per_x, out=s[4])
     np.multiply(bend_per_x, kappa_1, out=t[0])
     np.multiply(bend_per_x, kappa_2, out=t[1])
+    turn_per_x = np.multiply(c.beta, per_x, out=s[4])
     np.multiply(torque, turn_per_x, out=t[2])
+    extend_per_x = np.multiply(c.eta, per_x, out=s[5])
     np.multiply(extend_per_x, tension, out=t[3])
     for i in range(4):
-        np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
-    stiff[0, 0] += c.alpha**2 * factor
-    stiff[1, 1] += c.alpha**2 * factor
-    stiff[2, 2] += c.beta**2 * factor
-    stiff[2, 3] += c.iota * factor
-    stiff[3, 3] += c.eta**2 * factor
+        np.multiply(steep, t[i], out=s[5])
+        np.multiply(s[5], t[i:], out=stiff[i, i:])
+    np.multiply(c.alpha**2, factor, out=s[6])
+    stiff[0, 0] += s[6]
+    stiff[1, 1] += s[6]
+    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[6])
+    stiff[2, 3] += np.multiply(c.iota, factor, out=s[6])
+    stiff[3, 3] += np.multiply(c.eta**2, factor, out=s[8])
     for i in range(1, 4):
         stiff[i, :i] = stiff[:i, i]
 
@@ -490,39 +535,45 @@ def stiffness(u: ArrayLike, v3: ArrayLike, constants: Constants, out: Array | No
     return stiff
 
 
-def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n3: Array, stiff: Array) -> None:
+def _loads_and_stiffness(
+    strains: Rows, c: Constants, work: Array, m: Array, n3: Array, stiff: Array
+) -> None:
     """(m, n3) = factor K (u, v3 - 1) and D^2 W = factor (K + growth t t^T), as apart."""
-    rest = [*strains[:3], strains[3] - 1]
+    s = [*work]
+    rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
-        kappa_1, kappa_2, torque, tension, q = _reduce_strains(rest, c)
+        kappa_1, kappa_2, torque, tension, q = _reduce_strains(rest, c, s)
     q = _within_limit(q)
-    growth, _, factor = _stiffen(q, c)
-    steep = factor * growth
-    bend = c.alpha * factor
-    turn = c.beta * factor
-    extend = c.eta * factor
+    growth, _, factor = _stiffen(q, c, s[6:])
     tiny = TINY[q.dtype]
-    x = np.sqrt(np.maximum(q, tiny))
-    per_x = 1 / x
-    bend_per_x = c.alpha * per_x
-    turn_per_x = c.beta * per_x
-    extend_per_x = c.eta * per_x
-    t = np.empty((4, q.size), q.dtype)
-    np.multiply(bend_per_x, kappa_1, out=t[0])
-    np.multiply(bend_per_x, kappa_2, out=t[1])
-    np.multiply(torque, turn_per_x, out=t[2])
-    np.multiply(extend_per_x, tension, out=t[3])
+    t = work[:4]
+    bend = np.multiply(c.alpha, factor, out=s[4])
     np.multiply(bend, kappa_1, out=m[0])
     np.multiply(bend, kappa_2, out=m[1])
+    turn = np.multiply(c.beta, factor, out=s[4])
     np.multiply(torque, turn, out=m[2])
+    extend = np.multiply(c.eta, factor, out=s[4])
     np.multiply(extend, tension, out=n3)
+    steep = np.multiply(factor, growth, out=s[6])
+    x = np.maximum(q, tiny, out=s[5])
+    np.sqrt(x, out=x)
+    per_x = np.divide(1, x, out=s[5])
+    bend_per_x = np.multiply(c.alpha, per_x, out=s[4])
+    np.multiply(bend_per_x, kappa_1, out=t[0])
+    np.multiply(bend_per_x, kappa_2, out=t[1])
+    turn_per_x = np.multiply(c.beta, per_x, out=s[4])
+    np.multiply(torque, turn_per_x, out=t[2])
+    extend_per_x = np.multiply(c.eta, per_x, out=s[5])
+    np.multiply(extend_per_x, tension, out=t[3])
     for i in range(4):
-        np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
-    stiff[0, 0] += c.alpha**2 * factor
-    stiff[1, 1] += c.alpha**2 * factor
-    stiff[2, 2] += c.beta**2 * factor
-    stiff[2, 3] += c.iota * factor
-    stiff[3, 3] += c.eta**2 * factor
+        np.multiply(steep, t[i], out=s[5])
+        np.multiply(s[5], t[i:], out=stiff[i, i:])
+    np.multiply(c.alpha**2, factor, out=s[6])
+    stiff[0, 0] += s[6]
+    stiff[1, 1] += s[6]
+    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[6])
+    stiff[2, 3] += np.multiply(c.iota, factor, out=s[6])
+    stiff[3, 3] += np.multiply(c.eta**2, factor, out=s[8])
     for i in range(1, 4):
         stiff[i, :i] = stiff[:i, i]
 
@@ -543,46 +594,78 @@ def loads_and_stiffness(
     return m, n3, stiff
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n3)/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, dilatation, twist, nu_3 = values
-    _, power, factor = _soften(y, c)
-    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
-    per_size = 1 / size
+    _, power, factor = _soften(y, c, s[7:])
     tiny = TINY[y.dtype]
-    a1 = per_size * (mu_1 + tiny)
-    aa1 = a1**2
-    a2 = mu_2 * per_size
-    aa2 = a2**2
-    a3 = mu_3 * per_size
-    aa3 = a3**2
-    b3 = nu_3 * per_size
-    c3 = per_size * twist
-    c6 = dilatation * per_size
-    cc6 = c6**2
-    across = aa1 + aa2
-    coupled = aa3 + c.gap * cc6
-    share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
-    steep = -factor * share
-    d = np.empty((4, y.size), y.dtype)
+    d = work[11:15]
+    share = np.add(power, 1, out=s[6])
+    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
+    steep = np.negative(factor, out=s[7])
+    steep *= share
+    per_size = np.divide(1, size, out=s[6])
+    a1 = np.add(mu_1, tiny, out=s[0])
+    a1 *= per_size
     np.multiply(c.per_alpha, a1, out=d[0])
+    a2 = np.multiply(mu_2, per_size, out=s[1])
     np.multiply(c.per_alpha, a2, out=d[1])
+    c3 = np.multiply(per_size, twist, out=s[2])
     np.multiply(c.per_beta, c3, out=d[2])
+    c6 = np.multiply(dilatation, per_size, out=s[3])
     np.multiply(c.per_eta, c6, out=d[3])
     for i in range(4):
-        np.multiply(steep * d[i], d[i:], out=soft[i, i:])
-    np.multiply(c.per_alpha**2 * factor, aa1 * remain + aa2 + coupled, out=soft[0, 0])
-    np.multiply(c.per_alpha**2 * factor, aa1 + aa2 * remain + coupled, out=soft[1, 1])
-    soft[2, 2] = c.per_beta**2 * factor * (c3**2 * remain + c.per_gap * (across + b3**2))
-    soft[2, 3] = c.per_beta * c.per_eta * factor * (
-        c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across)
-    )
-    np.multiply(c.per_eta**2 * factor, cc6 * remain + c.per_gap * (aa3 + across), out=soft[3, 3])
+        np.multiply(steep, d[i], out=s[8])
+        np.multiply(s[8], d[i:], out=soft[i, i:])
+    remain = np.add(power, 1, out=s[7])
+    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
+    aa1 = np.square(a1, out=s[0])
+    aa2 = np.square(a2, out=s[1])
+    a3 = np.multiply(mu_3, per_size, out=s[4])
+    aa3 = np.square(a3, out=s[9])
+    cc6 = np.square(c6, out=s[8])
+    coupled = np.multiply(c.gap, cc6, out=s[15])
+    np.add(aa3, coupled, out=coupled)
+    np.multiply(aa1, remain, out=soft[0, 0])
+    soft[0, 0] += aa2
+    soft[0, 0] += coupled
+    soft[0, 0] *= c.per_alpha**2
+    soft[0, 0] *= factor
+    np.multiply(aa2, remain, out=soft[1, 1])
+    np.add(aa1, soft[1, 1], out=soft[1, 1])
+    soft[1, 1] += coupled
+    soft[1, 1] *= c.per_alpha**2
+    soft[1, 1] *= factor
+    b3 = np.multiply(nu_3, per_size, out=s[5])
+    across = np.add(aa1, aa2, out=s[0])
+    np.square(c3, out=soft[2, 2])
+    soft[2, 2] *= remain
+    np.square(b3, out=s[1])
+    np.add(across, s[1], out=s[1])
+    s[1] *= c.per_gap
+    soft[2, 2] += s[1]
+    soft[2, 2] *= c.per_beta**2
+    soft[2, 2] *= factor
+    np.multiply(c3, c6, out=soft[2, 3])
+    soft[2, 3] *= remain
+    np.multiply(a3, b3, out=s[4])
+    s[4] += np.multiply(c.chirality, across, out=s[5])
+    s[4] *= c.per_gap
+    soft[2, 3] -= s[4]
+    soft[2, 3] *= c.per_beta * c.per_eta
+    soft[2, 3] *= factor
+    np.multiply(cc6, remain, out=soft[3, 3])
+    np.add(aa3, across, out=s[9])
+    s[9] *= c.per_gap
+    soft[3, 3] += s[9]
+    soft[3, 3] *= c.per_eta**2
+    soft[3, 3] *= factor
     for i in range(1, 4):
         soft[i, :i] = soft[:i, i]
 

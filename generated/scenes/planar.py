@@ -43,7 +43,8 @@ Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
-BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
+BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
+ROWS = 13  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
 HEADS = {
@@ -110,43 +111,61 @@ class Constants:
         return fraction, powers, start, slope, single
 
 
-def _reduce_loads(loads: Rows, c: Constants) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
     """Loads over their moduli, and Q* in squares."""
     m2, n1, n3 = loads
-    mu_2 = c.per_alpha * m2
-    nu_1 = c.per_zeta * n1
-    nu_3 = c.per_eta * n3
-    q_star = mu_2**2 + nu_1**2 + nu_3**2
+    mu_2 = np.multiply(c.per_alpha, m2, out=s[0])
+    nu_1 = np.multiply(c.per_zeta, n1, out=s[1])
+    nu_3 = np.multiply(c.per_eta, n3, out=s[2])
+    q_star = np.square(mu_2, out=s[3])
+    q_star += np.square(nu_1, out=s[4])
+    q_star += np.square(nu_3, out=s[4])
     return mu_2, nu_1, nu_3, q_star
 
 
-def _soften(y: Array, c: Constants) -> Rows:
+def _soften(y: Array, c: Constants, s: Rows) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
-    larger = np.maximum(y, c.gamma)
-    ratio = np.maximum(tiny, np.minimum(y, c.gamma) / larger)
-    power = np.exp(c.p * np.log(ratio))
-    factor = np.exp(-np.log1p(power) / c.p) / larger
+    larger = np.maximum(y, c.gamma, out=s[0])
+    ratio = np.minimum(y, c.gamma, out=s[1])
+    ratio /= larger
+    np.maximum(ratio, tiny, out=ratio)
+    power = np.log(ratio, out=s[2])
+    power *= c.p
+    np.exp(power, out=power)
+    factor = np.log1p(power, out=s[3])
+    factor /= -c.p
+    np.exp(factor, out=factor)
+    factor /= larger
     return ratio, power, factor
 
 
-def _reduce_strains(rest: Rows, c: Constants) -> Rows:
+def _reduce_strains(rest: Rows, c: Constants, s: Rows) -> Rows:
     """Strains times their moduli, and Q in squares."""
     u2, v1, stretch = rest
-    kappa_2 = c.alpha * u2
-    lam_1 = c.zeta * v1
-    lam_3 = c.eta * stretch
-    q = kappa_2**2 + lam_1**2 + lam_3**2
+    kappa_2 = np.multiply(c.alpha, u2, out=s[0])
+    lam_1 = np.multiply(c.zeta, v1, out=s[1])
+    lam_3 = np.multiply(c.eta, stretch, out=s[2])
+    q = np.square(kappa_2, out=s[3])
+    q += np.square(lam_1, out=s[4])
+    q += np.square(lam_3, out=s[4])
     return kappa_2, lam_1, lam_3, q
 
 
-def _stiffen(q: Array, c: Constants) -> Rows:
+def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
     """Load over strain, gamma (1 - x^p)^(-1/p), by the growth x^p/(1 - x^p), x^2 = Q."""
     log_max = LOG_MAX[q.dtype]
     tiny = TINY[q.dtype]
-    growth = 1 / np.expm1(np.minimum(log_max, -0.5 * c.p * np.log(np.maximum(q, tiny))))
-    depth = np.log1p(growth)
-    factor = c.gamma * np.exp(depth / c.p)
+    growth = np.maximum(q, tiny, out=s[0])
+    np.log(growth, out=growth)
+    growth *= -0.5 * c.p
+    np.minimum(growth, log_max, out=growth)
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    depth = np.log1p(growth, out=s[1])
+    factor = np.divide(depth, c.p, out=s[2])
+    np.exp(factor, out=factor)
+    factor *= c.gamma
     return growth, depth, factor
 
 
@@ -167,7 +186,7 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
 ) -> tuple[Rows, Array, Array, Array]:
     """Values of ``form``, the root of its last one, and the radius and its square.
 
@@ -175,15 +194,15 @@ def _balanced(
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c)
+        *values, square = form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
-            size = np.sqrt(square)
+            size = np.sqrt(square, out=s[-1])
             return values, size, size, square
         power = _exponent(inputs)
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
         power = power + _exponent(values)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
@@ -225,16 +244,17 @@ class _PastLimit(Exception):
 
 def _within_limit(q: Array) -> Array:
     """Q where all of it is below the limit."""
-    if not (q < 1).all():
+    if not q.max() < 1:
         raise _PastLimit
     return q
 
 
 def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueError:
     """The error for strains at or past the limit: how many points, the first and its Q."""
-    rest = [*strains[:2], strains[2] - 1]
+    s = [*np.empty((7, strains[0].size), strains[0].dtype)]
+    rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
-        *_, q = _reduce_strains(rest, c)
+        *_, q = _reduce_strains(rest, c, s)
     bad = np.flatnonzero(~(q < 1))
     index = tuple(map(int, np.unravel_index(bad[0], shape)))
     first = f"the first at index {index} with Q = {float(q[bad[0]])!r}"
@@ -295,11 +315,15 @@ def _apply(
         (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
         for name, r in zip(names, results, strict=True)
     ]
+    blocks = max(1, -(-points // BLOCK))
+    size = max(1, -(-points // blocks))  # blocks of one length
+    scratch = np.empty((ROWS, size), arrays[0].dtype)
     with np.errstate(under="ignore"):
-        for start in range(0, points, BLOCK):
-            part = slice(start, start + BLOCK)
+        for start in range(0, points, size):
+            part = slice(start, min(start + size, points))
+            work = scratch[:, : part.stop - start]
             try:
-                body([row[part] for row in rows], c, *(array[..., part] for array in flat))
+                body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
             except _PastLimit:
                 raise _past_limit(rows, c, shape) from None
     if not direct:
@@ -308,18 +332,20 @@ def _apply(
     return results
 
 
-def _strains(loads: Rows, c: Constants, u2: Array, v: Array) -> None:
+def _strains(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> None:
     """(u2, v1, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m2, n1, n3)."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [u2, *v, *work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values
-    *_, factor = _soften(y, c)
-    reach = factor * y / size
-    bend = c.per_alpha * reach
-    shear = c.per_zeta * reach
-    extend = c.per_eta * reach
+    *_, factor = _soften(y, c, s[4:])
+    reach = factor if size is y else factor * y / size
+    bend = np.multiply(c.per_alpha, reach, out=s[3])
     np.multiply(bend, mu_2, out=u2)
+    shear = np.multiply(c.per_zeta, reach, out=s[3])
     np.multiply(nu_1, shear, out=v[0])
-    np.add(extend * nu_3, 1, out=v[1])
+    extend = np.multiply(c.per_eta, reach, out=s[7])
+    np.multiply(extend, nu_3, out=v[1])
+    v[1] += 1
 
 
 def strains(m2: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
@@ -332,18 +358,19 @@ def strains(m2: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None 
     return u2, v
 
 
-def _loads(strains: Rows, c: Constants, m2: Array, n: Array) -> None:
+def _loads(strains: Rows, c: Constants, work: Array, m2: Array, n: Array) -> None:
     """(m2, n1, n3) = gamma (1 - Q^(p/2))^(-1/p) K (u2, v1, v3 - 1)."""
-    rest = [*strains[:2], strains[2] - 1]
+    s = [m2, *n, *work]
+    rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
-        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c)
+        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c, s)
     q = _within_limit(q)
-    *_, factor = _stiffen(q, c)
-    bend = c.alpha * factor
-    shear = c.zeta * factor
-    extend = c.eta * factor
+    *_, factor = _stiffen(q, c, s[4:])
+    bend = np.multiply(c.alpha, factor, out=s[3])
     np.multiply(bend, kappa_2, out=m2)
+    shear = np.multiply(c.zeta, factor, out=s[3])
     np.multiply(lam_1, shear, out=n[0])
+    extend = np.multiply(c.eta, factor, out=s[6])
     np.multiply(extend, lam_3, out=n[1])
 
 
@@ -358,14 +385,16 @@ def loads(u2: ArrayLike, v: ArrayLike, constants: Constants, out: Pair | None = 
     return m2, n
 
 
-def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
+def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
-    rest = [*strains[:2], strains[2] - 1]
-    _, _, x, q = _balanced(_reduce_strains, rest, c)
+    s = [*work]
+    rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
+    _, _, x, q = _balanced(_reduce_strains, rest, c, s)
     q = _within_limit(q)
-    _, depth, factor = _stiffen(q, c)
-    load = factor * x
-    np.multiply(load * x, _work_share(depth, c), out=w)
+    _, depth, factor = _stiffen(q, c, s[4:])
+    load = np.multiply(factor, x, out=s[6])
+    np.multiply(load, x, out=w)
+    w *= _work_share(depth, c)
 
 
 def stored_energy(
@@ -379,13 +408,17 @@ def stored_energy(
     return w
 
 
-def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
-    _, _, y, _ = _balanced(_reduce_loads, loads, c)
-    ratio, power, factor = _soften(y, c)
-    strain = factor * y
-    depth = np.log1p(power) - c.p * np.where(y <= c.gamma, 0.0, np.log(ratio))
-    np.multiply(strain * y, 1 - _work_share(depth, c), out=w_star)
+    s = [*work]
+    _, _, y, _ = _balanced(_reduce_loads, loads, c, s)
+    ratio, power, factor = _soften(y, c, s[4:])
+    strain = np.multiply(factor, y, out=s[7])
+    depth = np.log1p(power, out=s[6])
+    depth -= np.multiply(c.p, np.where(y <= c.gamma, 0.0, np.log(ratio)), out=s[5])
+    np.subtract(1, _work_share(depth, c), out=w_star)
+    w_star *= strain
+    w_star *= y
 
 
 def complementary_energy(
@@ -399,29 +432,32 @@ def complementary_energy(
     return w_star
 
 
-def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u2, v1, v3 - 1)/x."""
-    rest = [*strains[:2], strains[2] - 1]
+    s = [*work]
+    rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
-        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c)
+        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c, s)
     q = _within_limit(q)
-    growth, _, factor = _stiffen(q, c)
-    steep = factor * growth
+    growth, _, factor = _stiffen(q, c, s[4:])
     tiny = TINY[q.dtype]
-    x = np.sqrt(np.maximum(q, tiny))
-    per_x = 1 / x
-    bend_per_x = c.alpha * per_x
-    shear_per_x = c.zeta * per_x
-    extend_per_x = c.eta * per_x
-    t = np.empty((3, q.size), q.dtype)
+    t = work[:3]
+    steep = np.multiply(factor, growth, out=s[4])
+    x = np.maximum(q, tiny, out=s[3])
+    np.sqrt(x, out=x)
+    per_x = np.divide(1, x, out=s[3])
+    bend_per_x = np.multiply(c.alpha, per_x, out=s[5])
     np.multiply(bend_per_x, kappa_2, out=t[0])
+    shear_per_x = np.multiply(c.zeta, per_x, out=s[5])
     np.multiply(lam_1, shear_per_x, out=t[1])
+    extend_per_x = np.multiply(c.eta, per_x, out=s[3])
     np.multiply(extend_per_x, lam_3, out=t[2])
     for i in range(3):
-        np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
-    stiff[0, 0] += c.alpha**2 * factor
-    stiff[1, 1] += c.zeta**2 * factor
-    stiff[2, 2] += c.eta**2 * factor
+        np.multiply(steep, t[i], out=s[3])
+        np.multiply(s[3], t[i:], out=stiff[i, i:])
+    stiff[0, 0] += np.multiply(c.alpha**2, factor, out=s[4])
+    stiff[1, 1] += np.multiply(c.zeta**2, factor, out=s[4])
+    stiff[2, 2] += np.multiply(c.eta**2, factor, out=s[6])
     for i in range(1, 3):
         stiff[i, :i] = stiff[:i, i]
 
@@ -436,35 +472,40 @@ def stiffness(u2: ArrayLike, v: ArrayLike, constants: Constants, out: Array | No
     return stiff
 
 
-def _loads_and_stiffness(strains: Rows, c: Constants, m2: Array, n: Array, stiff: Array) -> None:
+def _loads_and_stiffness(
+    strains: Rows, c: Constants, work: Array, m2: Array, n: Array, stiff: Array
+) -> None:
     """(m2, n1, n3) = factor K (u2, v1, v3 - 1) and D^2 W = factor (K + growth t t^T), as apart."""
-    rest = [*strains[:2], strains[2] - 1]
+    s = [*work]
+    rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
-        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c)
+        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c, s)
     q = _within_limit(q)
-    growth, _, factor = _stiffen(q, c)
-    steep = factor * growth
-    bend = c.alpha * factor
-    shear = c.zeta * factor
-    extend = c.eta * factor
+    growth, _, factor = _stiffen(q, c, s[4:])
     tiny = TINY[q.dtype]
-    x = np.sqrt(np.maximum(q, tiny))
-    per_x = 1 / x
-    bend_per_x = c.alpha * per_x
-    shear_per_x = c.zeta * per_x
-    extend_per_x = c.eta * per_x
-    t = np.empty((3, q.size), q.dtype)
-    np.multiply(bend_per_x, kappa_2, out=t[0])
-    np.multiply(lam_1, shear_per_x, out=t[1])
-    np.multiply(extend_per_x, lam_3, out=t[2])
+    t = work[:3]
+    bend = np.multiply(c.alpha, factor, out=s[5])
     np.multiply(bend, kappa_2, out=m2)
+    shear = np.multiply(c.zeta, factor, out=s[5])
     np.multiply(lam_1, shear, out=n[0])
+    extend = np.multiply(c.eta, factor, out=s[5])
     np.multiply(extend, lam_3, out=n[1])
+    steep = np.multiply(factor, growth, out=s[4])
+    x = np.maximum(q, tiny, out=s[3])
+    np.sqrt(x, out=x)
+    per_x = np.divide(1, x, out=s[3])
+    bend_per_x = np.multiply(c.alpha, per_x, out=s[5])
+    np.multiply(bend_per_x, kappa_2, out=t[0])
+    shear_per_x = np.multiply(c.zeta, per_x, out=s[5])
+    np.multiply(lam_1, shear_per_x, out=t[1])
+    extend_per_x = np.multiply(c.eta, per_x, out=s[3])
+    np.multiply(extend_per_x, lam_3, out=t[2])
     for i in range(3):
-        np.multiply(steep * t[i], t[i:], out=stiff[i, i:])
-    stiff[0, 0] += c.alpha**2 * factor
-    stiff[1, 1] += c.zeta**2 * factor
-    stiff[2, 2] += c.eta**2 * factor
+        np.multiply(steep, t[i], out=s[3])
+        np.multiply(s[3], t[i:], out=stiff[i, i:])
+    stiff[0, 0] += np.multiply(c.alpha**2, factor, out=s[4])
+    stiff[1, 1] += np.multiply(c.zeta**2, factor, out=s[4])
+    stiff[2, 2] += np.multiply(c.eta**2, factor, out=s[6])
     for i in range(1, 3):
         stiff[i, :i] = stiff[:i, i]
 
@@ -485,36 +526,53 @@ def loads_and_stiffness(
     return m2, n, stiff
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m2, n1, n3)/y.
 
     With (a, b) the reduced load as a unit vector,
     the entries that would cancel are sums of squares.
     """
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values
-    _, power, factor = _soften(y, c)
-    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
-    per_size = 1 / size
+    _, power, factor = _soften(y, c, s[4:])
     tiny = TINY[y.dtype]
-    a2 = per_size * (mu_2 + tiny)
-    aa2 = a2**2
-    b1 = nu_1 * per_size
-    bb1 = b1**2
-    b3 = nu_3 * per_size
-    bb3 = b3**2
-    across = aa2 + bb1
-    share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
-    steep = -factor * share
-    d = np.empty((3, y.size), y.dtype)
+    d = work[8:11]
+    share = np.add(power, 1, out=s[3])
+    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
+    steep = np.negative(factor, out=s[4])
+    steep *= share
+    per_size = np.divide(1, size, out=s[3])
+    a2 = np.add(mu_2, tiny, out=s[0])
+    a2 *= per_size
     np.multiply(c.per_alpha, a2, out=d[0])
+    b1 = np.multiply(nu_1, per_size, out=s[1])
     np.multiply(c.per_zeta, b1, out=d[1])
+    b3 = np.multiply(nu_3, per_size, out=s[2])
     np.multiply(c.per_eta, b3, out=d[2])
     for i in range(3):
-        np.multiply(steep * d[i], d[i:], out=soft[i, i:])
-    np.multiply(c.per_alpha**2 * factor, aa2 * remain + bb1 + bb3, out=soft[0, 0])
-    np.multiply(c.per_zeta**2 * factor, aa2 + bb1 * remain + bb3, out=soft[1, 1])
-    np.multiply(c.per_eta**2 * factor, across + bb3 * remain, out=soft[2, 2])
+        np.multiply(steep, d[i], out=s[3])
+        np.multiply(s[3], d[i:], out=soft[i, i:])
+    remain = np.add(power, 1, out=s[4])
+    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
+    aa2 = np.square(a2, out=s[0])
+    bb1 = np.square(b1, out=s[1])
+    bb3 = np.square(b3, out=s[2])
+    np.multiply(aa2, remain, out=soft[0, 0])
+    soft[0, 0] += bb1
+    soft[0, 0] += bb3
+    soft[0, 0] *= c.per_alpha**2
+    soft[0, 0] *= factor
+    np.multiply(bb1, remain, out=soft[1, 1])
+    np.add(aa2, soft[1, 1], out=soft[1, 1])
+    soft[1, 1] += bb3
+    soft[1, 1] *= c.per_zeta**2
+    soft[1, 1] *= factor
+    across = np.add(aa2, bb1, out=s[0])
+    np.multiply(bb3, remain, out=soft[2, 2])
+    np.add(across, soft[2, 2], out=soft[2, 2])
+    soft[2, 2] *= c.per_eta**2
+    soft[2, 2] *= factor
     for i in range(1, 3):
         soft[i, :i] = soft[:i, i]
 

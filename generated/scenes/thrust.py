@@ -36,7 +36,8 @@ Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
-BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
+BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
+ROWS = 14  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 HEADS = {"n": (3,), "u3": (), "v": (3,), "w_star": (), "soft": (3, 3), "limit_gap": ()}
 
@@ -115,24 +116,34 @@ class Constants:
         return fraction, powers, start, slope, single
 
 
-def _reduce_loads(loads: Rows, c: Constants) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
     """Loads over their moduli, the linear rod's strains, and Q* in squares."""
     n1, n2, n3 = loads
-    nu_1 = c.per_zeta * n1
-    nu_2 = c.per_zeta * n2
-    dilatation = c.n3_dilates * n3
-    twist = -c.chirality * dilatation
-    q_star = c.gap * dilatation**2 + nu_1**2 + nu_2**2
+    nu_1 = np.multiply(c.per_zeta, n1, out=s[1])
+    nu_2 = np.multiply(c.per_zeta, n2, out=s[2])
+    dilatation = np.multiply(c.n3_dilates, n3, out=s[3])
+    twist = np.multiply(-c.chirality, dilatation, out=s[0])
+    q_star = np.square(dilatation, out=s[4])
+    q_star *= c.gap
+    q_star += np.square(nu_1, out=s[5])
+    q_star += np.square(nu_2, out=s[5])
     return nu_1, nu_2, dilatation, twist, q_star
 
 
-def _soften(y: Array, c: Constants) -> Rows:
+def _soften(y: Array, c: Constants, s: Rows) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
-    larger = np.maximum(y, c.gamma)
-    ratio = np.maximum(tiny, np.minimum(y, c.gamma) / larger)
-    power = np.exp(c.p * np.log(ratio))
-    factor = np.exp(-np.log1p(power) / c.p) / larger
+    larger = np.maximum(y, c.gamma, out=s[0])
+    ratio = np.minimum(y, c.gamma, out=s[1])
+    ratio /= larger
+    np.maximum(ratio, tiny, out=ratio)
+    power = np.log(ratio, out=s[2])
+    power *= c.p
+    np.exp(power, out=power)
+    factor = np.log1p(power, out=s[3])
+    factor /= -c.p
+    np.exp(factor, out=factor)
+    factor /= larger
     return ratio, power, factor
 
 
@@ -143,7 +154,7 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
 ) -> tuple[Rows, Array, Array, Array]:
     """Values of ``form``, the root of its last one, and the radius and its square.
 
@@ -151,15 +162,15 @@ def _balanced(
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c)
+        *values, square = form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
-            size = np.sqrt(square)
+            size = np.sqrt(square, out=s[-1])
             return values, size, size, square
         power = _exponent(inputs)
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
         power = power + _exponent(values)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
@@ -249,29 +260,35 @@ def _apply(
         (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
         for name, r in zip(names, results, strict=True)
     ]
+    blocks = max(1, -(-points // BLOCK))
+    size = max(1, -(-points // blocks))  # blocks of one length
+    scratch = np.empty((ROWS, size), arrays[0].dtype)
     with np.errstate(under="ignore"):
-        for start in range(0, points, BLOCK):
-            part = slice(start, start + BLOCK)
-            body([row[part] for row in rows], c, *(array[..., part] for array in flat))
+        for start in range(0, points, size):
+            part = slice(start, min(start + size, points))
+            work = scratch[:, : part.stop - start]
+            body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
     return results
 
 
-def _strains(loads: Rows, c: Constants, u3: Array, v: Array) -> None:
+def _strains(loads: Rows, c: Constants, work: Array, u3: Array, v: Array) -> None:
     """(u3, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 n."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [u3, *v, *work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     nu_1, nu_2, dilatation, twist = values
-    *_, factor = _soften(y, c)
-    reach = factor * y / size
-    turn = c.per_beta * reach
-    shear = c.per_zeta * reach
-    extend = c.per_eta * reach
+    *_, factor = _soften(y, c, s[5:])
+    reach = factor if size is y else factor * y / size
+    turn = np.multiply(c.per_beta, reach, out=s[4])
     np.multiply(turn, twist, out=u3)
+    shear = np.multiply(c.per_zeta, reach, out=s[4])
     np.multiply(nu_1, shear, out=v[0])
     np.multiply(nu_2, shear, out=v[1])
-    np.add(dilatation * extend, 1, out=v[2])
+    extend = np.multiply(c.per_eta, reach, out=s[8])
+    np.multiply(dilatation, extend, out=v[2])
+    v[2] += 1
 
 
 def strains(n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
@@ -284,13 +301,17 @@ def strains(n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair
     return u3, v
 
 
-def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
-    _, _, y, _ = _balanced(_reduce_loads, loads, c)
-    ratio, power, factor = _soften(y, c)
-    strain = factor * y
-    depth = np.log1p(power) - c.p * np.where(y <= c.gamma, 0.0, np.log(ratio))
-    np.multiply(strain * y, 1 - _work_share(depth, c), out=w_star)
+    s = [*work]
+    _, _, y, _ = _balanced(_reduce_loads, loads, c, s)
+    ratio, power, factor = _soften(y, c, s[5:])
+    strain = np.multiply(factor, y, out=s[8])
+    depth = np.log1p(power, out=s[7])
+    depth -= np.multiply(c.p, np.where(y <= c.gamma, 0.0, np.log(ratio)), out=s[6])
+    np.subtract(1, _work_share(depth, c), out=w_star)
+    w_star *= strain
+    w_star *= y
 
 
 def complementary_energy(n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
@@ -302,37 +323,54 @@ def complementary_energy(n: ArrayLike, constants: Constants, out: Array | None =
     return w_star
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 n/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     nu_1, nu_2, dilatation, _ = values
-    _, power, factor = _soften(y, c)
-    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
-    per_size = 1 / size
+    _, power, factor = _soften(y, c, s[5:])
     tiny = TINY[y.dtype]
-    b1 = per_size * (nu_1 + tiny)
-    bb1 = b1**2
-    b2 = nu_2 * per_size
-    bb2 = b2**2
-    c6 = dilatation * per_size
-    cc6 = c6**2
-    across = bb1 + bb2
-    coupled = c.gap * cc6
-    share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
-    steep = -factor * share
-    d = np.empty((3, y.size), y.dtype)
+    d = work[9:12]
+    share = np.add(power, 1, out=s[0])
+    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
+    steep = np.negative(factor, out=s[4])
+    steep *= share
+    per_size = np.divide(1, size, out=s[0])
+    b1 = np.add(nu_1, tiny, out=s[1])
+    b1 *= per_size
     np.multiply(c.per_zeta, b1, out=d[0])
+    b2 = np.multiply(nu_2, per_size, out=s[2])
     np.multiply(c.per_zeta, b2, out=d[1])
+    c6 = np.multiply(dilatation, per_size, out=s[3])
     np.multiply(c.per_eta, c6, out=d[2])
     for i in range(3):
-        np.multiply(steep * d[i], d[i:], out=soft[i, i:])
-    np.multiply(c.per_zeta**2 * factor, bb1 * remain + bb2 + coupled, out=soft[0, 0])
-    np.multiply(c.per_zeta**2 * factor, bb1 + bb2 * remain + coupled, out=soft[1, 1])
-    np.multiply(c.per_eta**2 * factor, c.per_gap * across + cc6 * remain, out=soft[2, 2])
+        np.multiply(steep, d[i], out=s[0])
+        np.multiply(s[0], d[i:], out=soft[i, i:])
+    remain = np.add(power, 1, out=s[4])
+    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
+    bb1 = np.square(b1, out=s[1])
+    bb2 = np.square(b2, out=s[2])
+    cc6 = np.square(c6, out=s[3])
+    coupled = np.multiply(c.gap, cc6, out=s[7])
+    np.multiply(bb1, remain, out=soft[0, 0])
+    soft[0, 0] += bb2
+    soft[0, 0] += coupled
+    soft[0, 0] *= c.per_zeta**2
+    soft[0, 0] *= factor
+    np.multiply(bb2, remain, out=soft[1, 1])
+    np.add(bb1, soft[1, 1], out=soft[1, 1])
+    soft[1, 1] += coupled
+    soft[1, 1] *= c.per_zeta**2
+    soft[1, 1] *= factor
+    across = np.add(bb1, bb2, out=s[1])
+    np.multiply(c.per_gap, across, out=soft[2, 2])
+    soft[2, 2] += np.multiply(cc6, remain, out=s[3])
+    soft[2, 2] *= c.per_eta**2
+    soft[2, 2] *= factor
     for i in range(1, 3):
         soft[i, :i] = soft[:i, i]
 
