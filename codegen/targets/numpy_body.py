@@ -164,17 +164,18 @@ def _call(step: Step, kernel: Kernel, base: int) -> list[str]:
 
 def body(kernel: Kernel, steps: dict[str, Step], printer: Printer, text: FunctionText) -> Body:
     """The private function that works on one block."""
-    exprs = [a.expr for a in kernel.body if not a.step] + [o.expr for o in kernel.outputs]
-    needed = {s.name for expr in exprs for s in expr.free_symbols}
+    packed = _packed(kernel, text)
+    own = [steps[name] for name in dict.fromkeys(a.step for a in kernel.body if a.step)]
+    work = _calls(kernel, printer, packed, {name for step in own for name in step.inputs})
+    needed = last_reads(work)
     called, held, base, most = list[str](), dict[str, int](), 0, 0
-    for step in (steps[name] for name in dict.fromkeys(a.step for a in kernel.body if a.step)):
+    for step in own:
+        called += _before(step, kernel, printer)
         called += _call(step, kernel, base)
         most = max(most, base + step.printed.rows)
         results = {name: base + row for name, row in step.printed.row.items()}
         held |= {name: results[name] for name in step.results if name in needed}
         base += step.kept
-    packed = _packed(kernel, text)
-    work = _calls(kernel, printer, packed)
     places = {_place(o, packed): _place(o, packed) for o in kernel.outputs}
     dyad = kernel.dyad
     vector = {name: f"{name[0]}[{k}]" for k, name in enumerate(dyad.vector)} if dyad else {}
@@ -205,6 +206,13 @@ def body(kernel: Kernel, steps: dict[str, Step], printer: Printer, text: Functio
     return Body("\n".join([*opening, *(INDENT + line for line in lines)]), rows)
 
 
+def _before(step: Step, kernel: Kernel, printer: Printer) -> list[str]:
+    """The root of the square where no gauge takes it, if the step starts from it."""
+    prepared = [a for a in kernel.body if not a.step and (a.name,) == step.inputs]
+    work = [call for a in prepared for call in calls(a.name, a.expr, printer)]
+    return list(print_calls(work, {}, fixed={a.name: -1 for a in prepared}).lines)
+
+
 def _stay(entries: list[str], held: dict[str, int], work: list[Call]) -> bool:
     """Whether each entry's row holds what is read for the last time to make the entry."""
     holder = {row: name for name, row in held.items()}
@@ -223,9 +231,12 @@ def _packed(kernel: Kernel, text: FunctionText) -> int:
     return 0
 
 
-def _calls(kernel: Kernel, printer: Printer, packed: int) -> list[Call]:
-    """What the body computes after the steps: each output as soon as it can be, the dyad last."""
-    waiting = {a.name: a for a in kernel.body if not a.step and a.name != "stretch"}
+def _calls(kernel: Kernel, printer: Printer, packed: int, known: set[str]) -> list[Call]:
+    """What the body computes after the steps: each output as soon as it can be, the dyad last.
+
+    What is ``known``, the steps' inputs, is there already.
+    """
+    waiting = {a.name: a for a in kernel.body if not a.step and a.name not in known}
     work = list[Call]()
 
     def settle(exprs: Iterable[sp.Expr]) -> None:

@@ -28,7 +28,8 @@ Pair = tuple[Array, Array]
 Rows = Sequence[Array]
 Inputs = dict[str, ArrayLike]
 
-BLOCK = 8192  # points worked on at a time, so that temporaries stay in cache
+BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
+ROWS = 23  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 HEADS = {"m": (3,), "n": (3,), "u": (3,), "v": (3,), "soft": (6, 6)}
 
@@ -89,28 +90,43 @@ class Constants:
             object.__setattr__(self, name, float(ratio))
 
 
-def _reduce_loads(loads: Rows, c: Constants) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
     """Loads over their moduli, the linear rod's strains, and Q* in squares."""
     m1, m2, m3, n1, n2, n3 = loads
-    mu_1 = c.per_alpha * m1
-    mu_2 = c.per_alpha * m2
-    mu_3 = c.per_beta * m3
-    nu_1 = c.per_zeta * n1
-    nu_2 = c.per_zeta * n2
-    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
-    twist = mu_3 - c.chirality * dilatation
-    nu_3 = c.per_eta * n3
-    q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2 + nu_1**2 + nu_2**2
+    mu_1 = np.multiply(c.per_alpha, m1, out=s[0])
+    mu_2 = np.multiply(c.per_alpha, m2, out=s[1])
+    mu_3 = np.multiply(c.per_beta, m3, out=s[6])
+    nu_1 = np.multiply(c.per_zeta, n1, out=s[3])
+    nu_2 = np.multiply(c.per_zeta, n2, out=s[4])
+    dilatation = np.multiply(c.n3_dilates, n3, out=s[5])
+    dilatation -= np.multiply(c.m3_contracts, m3, out=s[7])
+    twist = np.multiply(c.chirality, dilatation, out=s[2])
+    np.subtract(mu_3, twist, out=twist)
+    nu_3 = np.multiply(c.per_eta, n3, out=s[7])
+    q_star = np.square(dilatation, out=s[8])
+    q_star *= c.gap
+    q_star += np.square(mu_1, out=s[9])
+    q_star += np.square(mu_2, out=s[9])
+    q_star += np.square(mu_3, out=s[9])
+    q_star += np.square(nu_1, out=s[9])
+    q_star += np.square(nu_2, out=s[9])
     return mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3, q_star
 
 
-def _soften(y: Array, c: Constants) -> Rows:
+def _soften(y: Array, c: Constants, s: Rows) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
-    larger = np.maximum(y, c.gamma)
-    ratio = np.maximum(tiny, np.minimum(y, c.gamma) / larger)
-    power = np.exp(c.p * np.log(ratio))
-    factor = np.exp(-np.log1p(power) / c.p) / larger
+    larger = np.maximum(y, c.gamma, out=s[0])
+    ratio = np.minimum(y, c.gamma, out=s[1])
+    ratio /= larger
+    np.maximum(ratio, tiny, out=ratio)
+    power = np.log(ratio, out=s[1])
+    power *= c.p
+    np.exp(power, out=power)
+    factor = np.log1p(power, out=s[2])
+    factor /= -c.p
+    np.exp(factor, out=factor)
+    factor /= larger
     return power, factor
 
 
@@ -121,7 +137,7 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
+    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
 ) -> tuple[Rows, Array, Array, Array]:
     """Values of ``form``, the root of its last one, and the radius and its square.
 
@@ -129,15 +145,15 @@ def _balanced(
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c)
+        *values, square = form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
-            size = np.sqrt(square)
+            size = np.sqrt(square, out=s[-1])
             return values, size, size, square
         power = _exponent(inputs)
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
         power = power + _exponent(values)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
@@ -197,32 +213,38 @@ def _apply(
         (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
         for name, r in zip(names, results, strict=True)
     ]
+    blocks = max(1, -(-points // BLOCK))
+    size = max(1, -(-points // blocks))  # blocks of one length
+    scratch = np.empty((ROWS, size), arrays[0].dtype)
     with np.errstate(under="ignore"):
-        for start in range(0, points, BLOCK):
-            part = slice(start, start + BLOCK)
-            body([row[part] for row in rows], c, *(array[..., part] for array in flat))
+        for start in range(0, points, size):
+            part = slice(start, min(start + size, points))
+            work = scratch[:, : part.stop - start]
+            body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
     return results
 
 
-def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
+def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None:
     """(u, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n)."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*u, *v, *work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
-    *_, factor = _soften(y, c)
-    reach = factor * y / size
-    bend = c.per_alpha * reach
-    turn = c.per_beta * reach
-    shear = c.per_zeta * reach
-    extend = c.per_eta * reach
+    *_, factor = _soften(y, c, s[9:])
+    reach = factor if size is y else factor * y / size
+    bend = np.multiply(c.per_alpha, reach, out=s[6])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
+    turn = np.multiply(c.per_beta, reach, out=s[6])
     np.multiply(turn, twist, out=u[2])
+    shear = np.multiply(c.per_zeta, reach, out=s[6])
     np.multiply(nu_1, shear, out=v[0])
     np.multiply(nu_2, shear, out=v[1])
-    np.add(dilatation * extend, 1, out=v[2])
+    extend = np.multiply(c.per_eta, reach, out=s[11])
+    np.multiply(dilatation, extend, out=v[2])
+    v[2] += 1
 
 
 def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
@@ -235,54 +257,102 @@ def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None =
     return u, v
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3 = values
-    power, factor = _soften(y, c)
-    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
-    per_size = 1 / size
+    power, factor = _soften(y, c, s[9:])
     tiny = TINY[y.dtype]
-    a1 = per_size * (mu_1 + tiny)
-    aa1 = a1**2
-    a2 = mu_2 * per_size
-    aa2 = a2**2
-    a3 = mu_3 * per_size
-    aa3 = a3**2
-    b1 = nu_1 * per_size
-    bb1 = b1**2
-    b2 = nu_2 * per_size
-    bb2 = b2**2
-    b3 = nu_3 * per_size
-    c3 = per_size * twist
-    c6 = dilatation * per_size
-    cc6 = c6**2
-    across = aa1 + aa2 + bb1 + bb2
-    coupled = aa3 + c.gap * cc6
-    share = np.where(y <= c.gamma, power, 1.0) / (power + 1)
-    steep = -factor * share
-    d = np.empty((6, y.size), y.dtype)
+    d = work[12:18]
+    share = np.add(power, 1, out=s[8])
+    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
+    steep = np.negative(factor, out=s[9])
+    steep *= share
+    per_size = np.divide(1, size, out=s[8])
+    a1 = np.add(mu_1, tiny, out=s[0])
+    a1 *= per_size
     np.multiply(c.per_alpha, a1, out=d[0])
+    a2 = np.multiply(mu_2, per_size, out=s[1])
     np.multiply(c.per_alpha, a2, out=d[1])
+    c3 = np.multiply(per_size, twist, out=s[2])
     np.multiply(c.per_beta, c3, out=d[2])
+    b1 = np.multiply(nu_1, per_size, out=s[3])
     np.multiply(c.per_zeta, b1, out=d[3])
+    b2 = np.multiply(nu_2, per_size, out=s[4])
     np.multiply(c.per_zeta, b2, out=d[4])
+    c6 = np.multiply(dilatation, per_size, out=s[5])
     np.multiply(c.per_eta, c6, out=d[5])
     for i in range(6):
-        np.multiply(steep * d[i], d[i:], out=soft[i, i:])
-    np.multiply(c.per_alpha**2 * factor, aa1 * remain + aa2 + bb1 + bb2 + coupled, out=soft[0, 0])
-    np.multiply(c.per_alpha**2 * factor, aa1 + aa2 * remain + bb1 + bb2 + coupled, out=soft[1, 1])
-    soft[2, 2] = c.per_beta**2 * factor * (c3**2 * remain + c.per_gap * (across + b3**2))
-    soft[2, 5] = c.per_beta * c.per_eta * factor * (
-        c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across)
-    )
-    np.multiply(c.per_zeta**2 * factor, aa1 + aa2 + bb1 * remain + bb2 + coupled, out=soft[3, 3])
-    np.multiply(c.per_zeta**2 * factor, aa1 + aa2 + bb1 + bb2 * remain + coupled, out=soft[4, 4])
-    np.multiply(c.per_eta**2 * factor, cc6 * remain + c.per_gap * (aa3 + across), out=soft[5, 5])
+        np.multiply(steep, d[i], out=s[18])
+        np.multiply(s[18], d[i:], out=soft[i, i:])
+    remain = np.add(power, 1, out=s[9])
+    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
+    aa1 = np.square(a1, out=s[0])
+    aa2 = np.square(a2, out=s[1])
+    bb1 = np.square(b1, out=s[3])
+    bb2 = np.square(b2, out=s[4])
+    a3 = np.multiply(mu_3, per_size, out=s[6])
+    aa3 = np.square(a3, out=s[10])
+    cc6 = np.square(c6, out=s[18])
+    coupled = np.multiply(c.gap, cc6, out=s[19])
+    np.add(aa3, coupled, out=coupled)
+    np.multiply(aa1, remain, out=soft[0, 0])
+    soft[0, 0] += aa2
+    soft[0, 0] += bb1
+    soft[0, 0] += bb2
+    soft[0, 0] += coupled
+    soft[0, 0] *= c.per_alpha**2
+    soft[0, 0] *= factor
+    np.multiply(aa2, remain, out=soft[1, 1])
+    np.add(aa1, soft[1, 1], out=soft[1, 1])
+    soft[1, 1] += bb1
+    soft[1, 1] += bb2
+    soft[1, 1] += coupled
+    soft[1, 1] *= c.per_alpha**2
+    soft[1, 1] *= factor
+    b3 = np.multiply(nu_3, per_size, out=s[7])
+    across = np.add(aa1, aa2, out=s[8])
+    across += bb1
+    across += bb2
+    np.square(c3, out=soft[2, 2])
+    soft[2, 2] *= remain
+    np.square(b3, out=s[20])
+    np.add(across, s[20], out=s[20])
+    s[20] *= c.per_gap
+    soft[2, 2] += s[20]
+    soft[2, 2] *= c.per_beta**2
+    soft[2, 2] *= factor
+    np.multiply(c3, c6, out=soft[2, 5])
+    soft[2, 5] *= remain
+    np.multiply(a3, b3, out=s[6])
+    s[6] += np.multiply(c.chirality, across, out=s[7])
+    s[6] *= c.per_gap
+    soft[2, 5] -= s[6]
+    soft[2, 5] *= c.per_beta * c.per_eta
+    soft[2, 5] *= factor
+    np.add(aa1, aa2, out=soft[3, 3])
+    soft[3, 3] += np.multiply(bb1, remain, out=s[6])
+    soft[3, 3] += bb2
+    soft[3, 3] += coupled
+    soft[3, 3] *= c.per_zeta**2
+    soft[3, 3] *= factor
+    np.add(aa1, aa2, out=soft[4, 4])
+    soft[4, 4] += bb1
+    soft[4, 4] += np.multiply(bb2, remain, out=s[4])
+    soft[4, 4] += coupled
+    soft[4, 4] *= c.per_zeta**2
+    soft[4, 4] *= factor
+    np.multiply(cc6, remain, out=soft[5, 5])
+    np.add(aa3, across, out=s[10])
+    s[10] *= c.per_gap
+    soft[5, 5] += s[10]
+    soft[5, 5] *= c.per_eta**2
+    soft[5, 5] *= factor
     for i in range(1, 6):
         soft[i, :i] = soft[:i, i]
 

@@ -187,13 +187,22 @@ def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
     return growth, depth, factor
 
 
-def _harden(y: Array, c: Constants) -> Rows:
+def _harden(y: Array, c: Constants, s: Rows) -> Rows:
     """Load over strain, (gamma^p + y^p)^(1/p), after its rise (y/gamma)^(p/2)."""
     tiny = TINY[y.dtype]
-    rise = np.exp(0.5 * c.p * np.log(np.maximum(tiny, y / c.gamma)))
-    half = np.minimum(rise, 1 / np.maximum(rise, tiny))
-    power = half**2
-    factor = np.exp(np.log1p(power) / c.p) * np.maximum(y, c.gamma)
+    rise = np.divide(y, c.gamma, out=s[0])
+    np.maximum(rise, tiny, out=rise)
+    np.log(rise, out=rise)
+    rise *= 0.5 * c.p
+    np.exp(rise, out=rise)
+    half = np.maximum(rise, tiny, out=s[1])
+    np.divide(1, half, out=half)
+    np.minimum(half, rise, out=half)
+    power = np.square(half, out=s[1])
+    factor = np.log1p(power, out=s[1])
+    factor /= c.p
+    np.exp(factor, out=factor)
+    factor *= np.maximum(y, c.gamma, out=s[2])
     return rise, factor
 
 
@@ -668,23 +677,28 @@ def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | No
     return soft
 
 
-def _strains_and_gap(loads: Rows, c: Constants, u: Array, v: Array, limit_gap: Array) -> None:
+def _strains_and_gap(
+    loads: Rows, c: Constants, work: Array, u: Array, v: Array, limit_gap: Array
+) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, nu_1, nu_2, nu_3 = values
-    _, power, factor = _soften(y, c)
-    reach = factor * y / size
-    bend = c.per_alpha * reach
-    turn = c.per_beta * reach
-    shear = c.per_zeta * reach
-    extend = c.per_eta * reach
-    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    _, power, factor = _soften(y, c, s[7:])
+    reach = factor if size is y else factor * y / size
+    bend = np.multiply(c.per_alpha, reach, out=s[6])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
+    turn = np.multiply(c.per_beta, reach, out=s[1])
     np.multiply(mu_3, turn, out=u[2])
+    shear = np.multiply(c.per_zeta, reach, out=s[1])
     np.multiply(nu_1, shear, out=v[0])
     np.multiply(nu_2, shear, out=v[1])
-    np.add(extend * nu_3, 1, out=v[2])
+    extend = np.multiply(c.per_eta, reach, out=s[10])
+    np.multiply(extend, nu_3, out=v[2])
+    v[2] += 1
+    remain = np.add(power, 1, out=s[5])
+    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
     limit_gap[...] = remain
 
 
@@ -703,31 +717,35 @@ def strains_and_gap(
     return u, v, limit_gap
 
 
-def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m, n)/y, y^2 = Q*."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, nu_1, nu_2, nu_3 = values
-    rise, factor = _harden(y, c)
-    rise_per_size = rise / size
-    bend_rise = c.alpha * rise_per_size
-    turn_rise = c.beta * rise_per_size
-    shear_rise = c.zeta * rise_per_size
-    extend_rise = c.eta * rise_per_size
-    h = np.empty((6, y.size), y.dtype)
+    rise, factor = _harden(y, c, s[7:])
+    h = work[:6]
+    rise_per_size = np.divide(rise, size, out=s[7])
+    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[6])
     np.multiply(bend_rise, mu_1, out=h[0])
     np.multiply(bend_rise, mu_2, out=h[1])
+    turn_rise = np.multiply(c.beta, rise_per_size, out=s[6])
     np.multiply(mu_3, turn_rise, out=h[2])
+    shear_rise = np.multiply(c.zeta, rise_per_size, out=s[6])
     np.multiply(nu_1, shear_rise, out=h[3])
     np.multiply(nu_2, shear_rise, out=h[4])
+    extend_rise = np.multiply(c.eta, rise_per_size, out=s[7])
     np.multiply(extend_rise, nu_3, out=h[5])
     for i in range(6):
-        np.multiply(factor * h[i], h[i:], out=stiff[i, i:])
-    stiff[0, 0] += c.alpha**2 * factor
-    stiff[1, 1] += c.alpha**2 * factor
-    stiff[2, 2] += c.beta**2 * factor
-    stiff[3, 3] += c.zeta**2 * factor
-    stiff[4, 4] += c.zeta**2 * factor
-    stiff[5, 5] += c.eta**2 * factor
+        np.multiply(factor, h[i], out=s[7])
+        np.multiply(s[7], h[i:], out=stiff[i, i:])
+    np.multiply(c.alpha**2, factor, out=s[7])
+    stiff[0, 0] += s[7]
+    stiff[1, 1] += s[7]
+    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[7])
+    np.multiply(c.zeta**2, factor, out=s[7])
+    stiff[3, 3] += s[7]
+    stiff[4, 4] += s[7]
+    stiff[5, 5] += np.multiply(c.eta**2, factor, out=s[8])
     for i in range(1, 6):
         stiff[i, :i] = stiff[:i, i]
 

@@ -394,20 +394,25 @@ def compliance(m: ArrayLike, constants: Constants, out: Array | None = None) -> 
     return soft
 
 
-def _strains_and_gap(loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array) -> None:
+def _strains_and_gap(
+    loads: Rows, c: Constants, work: Array, u: Array, v3: Array, limit_gap: Array
+) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, _, dilatation, twist = values
-    _, power, factor = _soften(y, c)
-    reach = factor * y / size
-    bend = c.per_alpha * reach
-    turn = c.per_beta * reach
-    extend = c.per_eta * reach
-    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    _, power, factor = _soften(y, c, s[6:])
+    reach = factor if size is y else factor * y / size
+    bend = np.multiply(c.per_alpha, reach, out=s[4])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
+    turn = np.multiply(c.per_beta, reach, out=s[1])
     np.multiply(turn, twist, out=u[2])
-    np.add(dilatation * extend, 1, out=v3)
+    extend = np.multiply(c.per_eta, reach, out=s[9])
+    np.multiply(dilatation, extend, out=v3)
+    v3 += 1
+    remain = np.add(power, 1, out=s[9])
+    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
     limit_gap[...] = remain
 
 

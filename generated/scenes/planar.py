@@ -169,13 +169,22 @@ def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
     return growth, depth, factor
 
 
-def _harden(y: Array, c: Constants) -> Rows:
+def _harden(y: Array, c: Constants, s: Rows) -> Rows:
     """Load over strain, (gamma^p + y^p)^(1/p), after its rise (y/gamma)^(p/2)."""
     tiny = TINY[y.dtype]
-    rise = np.exp(0.5 * c.p * np.log(np.maximum(tiny, y / c.gamma)))
-    half = np.minimum(rise, 1 / np.maximum(rise, tiny))
-    power = half**2
-    factor = np.exp(np.log1p(power) / c.p) * np.maximum(y, c.gamma)
+    rise = np.divide(y, c.gamma, out=s[0])
+    np.maximum(rise, tiny, out=rise)
+    np.log(rise, out=rise)
+    rise *= 0.5 * c.p
+    np.exp(rise, out=rise)
+    half = np.maximum(rise, tiny, out=s[1])
+    np.divide(1, half, out=half)
+    np.minimum(half, rise, out=half)
+    power = np.square(half, out=s[1])
+    factor = np.log1p(power, out=s[1])
+    factor /= c.p
+    np.exp(factor, out=factor)
+    factor *= np.maximum(y, c.gamma, out=s[2])
     return rise, factor
 
 
@@ -589,19 +598,24 @@ def compliance(
     return soft
 
 
-def _strains_and_gap(loads: Rows, c: Constants, u2: Array, v: Array, limit_gap: Array) -> None:
+def _strains_and_gap(
+    loads: Rows, c: Constants, work: Array, u2: Array, v: Array, limit_gap: Array
+) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values
-    _, power, factor = _soften(y, c)
-    reach = factor * y / size
-    bend = c.per_alpha * reach
-    shear = c.per_zeta * reach
-    extend = c.per_eta * reach
-    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    _, power, factor = _soften(y, c, s[4:])
+    reach = factor if size is y else factor * y / size
+    bend = np.multiply(c.per_alpha, reach, out=s[3])
     np.multiply(bend, mu_2, out=u2)
+    shear = np.multiply(c.per_zeta, reach, out=s[0])
     np.multiply(nu_1, shear, out=v[0])
-    np.add(extend * nu_3, 1, out=v[1])
+    extend = np.multiply(c.per_eta, reach, out=s[7])
+    np.multiply(extend, nu_3, out=v[1])
+    v[1] += 1
+    remain = np.add(power, 1, out=s[2])
+    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
     limit_gap[...] = remain
 
 
@@ -620,24 +634,26 @@ def strains_and_gap(
     return u2, v, limit_gap
 
 
-def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m2, n1, n3)/y, y^2 = Q*."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values
-    rise, factor = _harden(y, c)
-    rise_per_size = rise / size
-    bend_rise = c.alpha * rise_per_size
-    shear_rise = c.zeta * rise_per_size
-    extend_rise = c.eta * rise_per_size
-    h = np.empty((3, y.size), y.dtype)
+    rise, factor = _harden(y, c, s[4:])
+    h = work[:3]
+    rise_per_size = np.divide(rise, size, out=s[4])
+    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[3])
     np.multiply(bend_rise, mu_2, out=h[0])
+    shear_rise = np.multiply(c.zeta, rise_per_size, out=s[3])
     np.multiply(nu_1, shear_rise, out=h[1])
+    extend_rise = np.multiply(c.eta, rise_per_size, out=s[4])
     np.multiply(extend_rise, nu_3, out=h[2])
     for i in range(3):
-        np.multiply(factor * h[i], h[i:], out=stiff[i, i:])
-    stiff[0, 0] += c.alpha**2 * factor
-    stiff[1, 1] += c.zeta**2 * factor
-    stiff[2, 2] += c.eta**2 * factor
+        np.multiply(factor, h[i], out=s[4])
+        np.multiply(s[4], h[i:], out=stiff[i, i:])
+    stiff[0, 0] += np.multiply(c.alpha**2, factor, out=s[4])
+    stiff[1, 1] += np.multiply(c.zeta**2, factor, out=s[4])
+    stiff[2, 2] += np.multiply(c.eta**2, factor, out=s[5])
     for i in range(1, 3):
         stiff[i, :i] = stiff[:i, i]
 

@@ -385,20 +385,25 @@ def compliance(n: ArrayLike, constants: Constants, out: Array | None = None) -> 
     return soft
 
 
-def _strains_and_gap(loads: Rows, c: Constants, u3: Array, v: Array, limit_gap: Array) -> None:
+def _strains_and_gap(
+    loads: Rows, c: Constants, work: Array, u3: Array, v: Array, limit_gap: Array
+) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    values, size, y, _ = _balanced(_reduce_loads, loads, c)
+    s = [*work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     nu_1, nu_2, dilatation, twist = values
-    _, power, factor = _soften(y, c)
-    reach = factor * y / size
-    turn = c.per_beta * reach
-    shear = c.per_zeta * reach
-    extend = c.per_eta * reach
-    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    _, power, factor = _soften(y, c, s[5:])
+    reach = factor if size is y else factor * y / size
+    turn = np.multiply(c.per_beta, reach, out=s[4])
     np.multiply(turn, twist, out=u3)
+    shear = np.multiply(c.per_zeta, reach, out=s[0])
     np.multiply(nu_1, shear, out=v[0])
     np.multiply(nu_2, shear, out=v[1])
-    np.add(dilatation * extend, 1, out=v[2])
+    extend = np.multiply(c.per_eta, reach, out=s[8])
+    np.multiply(dilatation, extend, out=v[2])
+    v[2] += 1
+    remain = np.add(power, 1, out=s[8])
+    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
     limit_gap[...] = remain
 
 
