@@ -4,12 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from rodproof.codegen.equilibria import directors, euler_angles, law, template, text
+from rodproof.codegen.equilibria import (
+    directors,
+    euler_angles,
+    law,
+    states,
+    states_template,
+    template,
+    text,
+)
 from rodproof.codegen.scene import Scene
 
 FOLDER = "equilibria"
 INIT = '"""Rods in equilibrium as numbers; every byte is written by rodproof.codegen."""\n'
 FIELD = "Field = ArrayLike | Callable[[Any], ArrayLike]  # constant, at every s, or of s"
+
+#: The law that the states need: strains and energy by loads.
+STATES = Scene(name="states", functions=("strains", "complementary_energy"))
 
 
 def scene(name: str) -> Scene:
@@ -23,6 +34,7 @@ def files(render: Callable[[Scene], str], verdicts: Mapping[str, str]) -> dict[s
         f"{FOLDER}/__init__.py": INIT,
         f"{FOLDER}/directors.py": _directors(render(scene("directors")), verdicts),
         f"{FOLDER}/euler_angles.py": _euler_angles(render(scene("euler_angles")), verdicts),
+        f"{FOLDER}/states.py": _states(render(STATES), verdicts),
     }
 
 
@@ -47,6 +59,7 @@ def _directors(module: str, verdicts: Mapping[str, str]) -> str:
     parts = [
         template.TYPES + FIELD,
         *(text.function(piece) for piece in (*law.pieces(), *directors.pieces())),
+        template.STACK,
         template.COMMON,
         template.DIRECTORS,
     ]
@@ -73,7 +86,48 @@ def _euler_angles(module: str, verdicts: Mapping[str, str]) -> str:
     parts = [
         template.TYPES,
         *(text.function(piece) for piece in (*law.pieces(), *euler_angles.pieces())),
+        template.STACK,
         template.COMMON,
         template.EULER_ANGLES,
     ]
     return text.module(heading, module, parts)
+
+
+def _states(module: str, verdicts: Mapping[str, str]) -> str:
+    heading = [
+        "Rods in equilibrium in closed form: straight, sheared, twisted, helical and circular.",
+        *text.paragraphs(
+            "Made by: rodproof generate",
+            "Under a thrust N g_3 or a couple M g_3 these are the states whose strains do not "
+            "change along the rod: their angle, strains, directors and center line, the threshold "
+            "of the sheared states and their limit. `equilibria` lists what a thrust allows.",
+            text.cited(
+                (
+                    "moduli-condition-1", "moduli-condition-2", "n-thresh", "sheared-existence",
+                    "extra-threshold-sharp", "extra-helix-axis", "helix-phi", "helix-psi",
+                    "const-u-mu", "const-u-3", "const-v-mu", "const-v-3", "wstar-definition",
+                ),
+                verdicts,
+            ),
+        ),
+    ]  # fmt: skip
+    fields = states.fields()
+    parts = [
+        template.TYPES,
+        *(text.function(piece) for piece in states.pieces()),
+        template.STACK,
+        *(
+            part.substitute({name: fields[name] for name in part.get_identifiers()})
+            for part in (states_template.STATE, states_template.BRANCH, states_template.LISTED)
+        ),
+    ]
+    return text.module(heading, module, parts, IMPORTS)
+
+
+#: What the branch of sheared states needs beyond the law: exact threshold, once a rod.
+IMPORTS = {
+    "from dataclasses import": "from contextlib import suppress\nfrom dataclasses import",
+    "from fractions import Fraction\n": "from decimal import MAX_EMAX, MIN_EMIN, Decimal, "
+    "localcontext\nfrom fractions import Fraction\n",
+    "from functools import cached_property\n": "from functools import cache, cached_property\n",
+}

@@ -25,9 +25,18 @@ SPELLING = {
 }
 
 
-def module(heading: list[str], law: str, parts: list[str]) -> str:
-    """The law's module under another heading, with ``parts`` after it."""
+def module(
+    heading: list[str], law: str, parts: list[str], imports: Mapping[str, str] | None = None
+) -> str:
+    """The law's module under another heading, with ``parts`` after it.
+
+    ``imports`` says what its lines of imports become.
+    """
     _, mark, rest = law.partition(FUTURE)
+    for old, new in (imports or {}).items():
+        if rest.count(old) != 1:
+            raise ValueError(f"the law's module must have one line {old!r}")
+        rest = rest.replace(old, new)
     text = "\n".join(['"""' + heading[0], *heading[1:], '"""']) + "\n\n" + mark + rest
     return "\n\n\n".join([text.rstrip("\n"), *(part.strip("\n") for part in parts)]) + "\n"
 

@@ -539,6 +539,17 @@ def _by_state(
     )
 
 
+def _stack(rows: Numbers) -> Array:
+    """One array of components, floats spread over the arrays' shape."""
+    shapes = [row.shape for row in rows if isinstance(row, np.ndarray)]
+    if not shapes:
+        return np.array(rows)
+    out = np.empty((len(rows), *np.broadcast_shapes(*shapes)))
+    for i, row in enumerate(rows):
+        out[i] = row
+    return out
+
+
 def _rows(name: str, value: ArrayLike, lengths: tuple[int, ...]) -> Numbers:
     """The components of an array: floats where it has one axis, else arrays."""
     array = np.asarray(value, dtype=float)
@@ -547,17 +558,6 @@ def _rows(name: str, value: ArrayLike, lengths: tuple[int, ...]) -> Numbers:
         raise ValueError(f"{name} must have the shape {wanted}, not {array.shape}")
     rows: Numbers = array.tolist() if array.ndim == 1 else list(array)
     return rows
-
-
-def _stack(rows: Numbers) -> Array:
-    """One array of components, floats spread over the arrays' shape."""
-    shapes = [row.shape for row in rows if isinstance(row, np.ndarray)]
-    if not shapes:
-        return np.array(rows)
-    out = np.empty((len(rows), *np.broadcast_shapes(*shapes)))
-    for row, value in zip(out, rows, strict=True):
-        row[...] = value
-    return out
 
 
 def _law(m: Numbers, n: Numbers, c: Constants, linear: bool) -> tuple[Numbers, Numbers]:

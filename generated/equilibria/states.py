@@ -1,0 +1,719 @@
+"""Rods in equilibrium in closed form: straight, sheared, twisted, helical and circular.
+
+Made by: rodproof generate
+
+Under a thrust N g_3 or a couple M g_3 these are the states whose strains do not change along the
+rod: their angle, strains, directors and center line, the threshold of the sheared states and
+their limit. `equilibria` lists what a thrust allows.
+
+Statements it rests on (verdict; as corrected if refuted): moduli-condition-1 proved,
+moduli-condition-2 definition, n-thresh definition, sheared-existence proved,
+extra-threshold-sharp proved, extra-helix-axis proved, helix-phi refuted, helix-psi proved,
+const-u-mu proved, const-u-3 proved, const-v-mu proved, const-v-3 proved, wstar-definition proved.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from decimal import MAX_EMAX, MIN_EMIN, Decimal, localcontext
+from fractions import Fraction
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+Array = np.ndarray[Any, np.dtype[Any]]
+Pair = tuple[Array, Array]
+Rows = Sequence[Array]
+Inputs = dict[str, ArrayLike]
+
+BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
+ROWS = 14  # of scratch
+TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
+HEADS = {"m": (3,), "n": (3,), "u": (3,), "v": (3,), "w_star": ()}
+
+
+@dataclass(frozen=True)
+class Constants:
+    """The seven constants of the rod, checked on construction (ValueError).
+
+    alpha, beta and iota are lengths, gamma is a force, zeta, eta and p are plain numbers; all but
+    iota are positive and beta^2 eta^2 - iota^2 > 0.
+    """
+
+    alpha: float
+    beta: float
+    zeta: float
+    eta: float
+    iota: float
+    gamma: float
+    p: float
+    chirality: float = field(init=False, repr=False, compare=False)
+    gap: float = field(init=False, repr=False, compare=False)
+    n3_dilates: float = field(init=False, repr=False, compare=False)
+    m3_contracts: float = field(init=False, repr=False, compare=False)
+    per_alpha: float = field(init=False, repr=False, compare=False)
+    per_beta: float = field(init=False, repr=False, compare=False)
+    per_zeta: float = field(init=False, repr=False, compare=False)
+    per_eta: float = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        for name in ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p"):
+            value = float(getattr(self, name))
+            if not math.isfinite(value) or (value <= 0 and name != "iota"):
+                rule = "a finite number" if name == "iota" else "positive and finite"
+                raise ValueError(f"Constants: {name} must be {rule}, not {value}")
+            object.__setattr__(self, name, value)
+        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota))
+        alpha, beta, zeta, eta, iota = exact
+        if not beta**2 * eta**2 - iota**2 > 0:
+            raise ValueError(
+                "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
+                f" not beta={self.beta}, eta={self.eta}, iota={self.iota}"
+            )
+        derived = {
+            "chirality": iota / beta / eta,
+            "gap": (beta**2 * eta**2 - iota**2) / beta**2 / eta**2,
+            "n3_dilates": beta**2 * eta / (beta**2 * eta**2 - iota**2),
+            "m3_contracts": eta * iota / (beta**2 * eta**2 - iota**2),
+            "per_alpha": 1 / alpha,
+            "per_beta": 1 / beta,
+            "per_zeta": 1 / zeta,
+            "per_eta": 1 / eta,
+        }
+        for name, ratio in derived.items():  # exact, then rounded once
+            if abs(ratio) >= 2**1023:
+                raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
+            object.__setattr__(self, name, float(ratio))
+
+    @cached_property
+    def work_share(self) -> tuple[list[float], list[float], float, float, float]:
+        """Coefficients for `_work_share`: fraction, powers, their sum, and the nearest power."""
+        a = 1 / self.p
+        fraction = [a / (1 + 2 * a)]
+        for k in range(1, 30):
+            below = (2 * a + 2 * k) * (2 * a + 2 * k - 1)
+            fraction += [k * (a + k) / below]
+            below = (2 * a + 2 * k) * (2 * a + 2 * k + 1)
+            fraction += [(a + k) * (2 * a + k) / below]
+        at_split = 1.0
+        for term in reversed(fraction):
+            at_split = 1 + term * 8 / at_split
+        nearest = min(max(round(a) - 1, 0), 23)
+        powers, term = [], a / 9
+        for k in range(24):
+            exponent = ((k + 1) * self.p - 1) / self.p  # k + 1 - 1/p, small where p = 1/(k + 1)
+            powers += [term / exponent if k != nearest else 0.0]
+            if k == nearest:
+                slope, single = exponent, term
+            term *= (k + 1 - 2 * a) / (k + 1) / 9
+        start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
+        return fraction, powers, start, slope, single
+
+
+def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
+    """Loads over their moduli, the linear rod's strains, and Q* in squares."""
+    m1, m2, m3, n1, n2, n3 = loads
+    mu_1 = np.multiply(c.per_alpha, m1, out=s[0])
+    mu_2 = np.multiply(c.per_alpha, m2, out=s[1])
+    mu_3 = np.multiply(c.per_beta, m3, out=s[6])
+    nu_1 = np.multiply(c.per_zeta, n1, out=s[3])
+    nu_2 = np.multiply(c.per_zeta, n2, out=s[4])
+    dilatation = np.multiply(c.n3_dilates, n3, out=s[5])
+    dilatation -= np.multiply(c.m3_contracts, m3, out=s[7])
+    twist = np.multiply(c.chirality, dilatation, out=s[2])
+    np.subtract(mu_3, twist, out=twist)
+    q_star = np.square(dilatation, out=s[7])
+    q_star *= c.gap
+    q_star += np.square(mu_1, out=s[8])
+    q_star += np.square(mu_2, out=s[8])
+    q_star += np.square(mu_3, out=s[6])
+    q_star += np.square(nu_1, out=s[6])
+    q_star += np.square(nu_2, out=s[6])
+    return mu_1, mu_2, nu_1, nu_2, dilatation, twist, q_star
+
+
+def _soften(y: Array, c: Constants, s: Rows) -> Rows:
+    """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
+    tiny = TINY[y.dtype]
+    larger = np.maximum(y, c.gamma, out=s[0])
+    ratio = np.minimum(y, c.gamma, out=s[1])
+    ratio /= larger
+    np.maximum(ratio, tiny, out=ratio)
+    power = np.log(ratio, out=s[2])
+    power *= c.p
+    np.exp(power, out=power)
+    factor = np.log1p(power, out=s[3])
+    factor /= -c.p
+    np.exp(factor, out=factor)
+    factor /= larger
+    return ratio, power, factor
+
+
+def _exponent(rows: Rows) -> Array:
+    """The power of two above the largest magnitude in each column."""
+    largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
+    return np.frexp(largest)[1]
+
+
+def _balanced(
+    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
+) -> tuple[Rows, Array, Array, Array]:
+    """Values of ``form``, the root of its last one, and the radius and its square.
+
+    Where squares would overflow or underflow the inputs are taken times a power of two, a factor
+    that the values and their root share and that later cancels; the radius is free of it.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        *values, square = form(inputs, c, s)
+        tiny = TINY[square.dtype]
+        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
+            size = np.sqrt(square, out=s[-1])
+            return values, size, size, square
+        power = _exponent(inputs)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        power = power + _exponent(values)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        size = np.sqrt(square)
+        radius = np.ldexp(size, power)
+        return values, np.maximum(size, tiny), radius, radius * radius
+
+
+def _work_share(depth: Array, c: Constants) -> Array:
+    """Stored energy over work, 1/2 2F1(1, 1/p; 1 + 2/p; 1 - exp(depth)), depth = -log(1 - x^p).
+
+    Up to exp(depth) = 9 by the continued fraction of Gauss, whose terms are all positive; from
+    there by its integral over t = 1 - s^p, with (1 - t)^(2/p - 1) expanded. The power of t nearest
+    to -1 is integrated through expm1, which makes the sum smooth at p = 1, 1/2, 1/3, ...
+    """
+    fraction, powers, start, slope, single = c.work_share
+    split = math.log(9)
+    growth = np.expm1(np.minimum(depth, split))
+    value = np.ones_like(growth)
+    for term in reversed(fraction):
+        np.divide(growth, value, out=value)
+        value *= term
+        value += 1
+    share: Array = 0.5 / value
+    far = depth > split
+    if far.any():
+        beyond = depth[far] - split
+        left = np.exp(-beyond)
+        rest = np.zeros_like(left)
+        for coefficient in reversed(powers):
+            rest *= left
+            rest += coefficient
+        turns = -np.expm1(np.minimum(-slope * beyond, 80)) / slope if slope else beyond
+        inner = np.exp(-beyond / c.p) * (start + single * turns) - left * rest
+        share[far] = inner * np.exp(-2 / c.p * np.log1p(-left / 9))
+    return share
+
+
+def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
+    """The inputs as float arrays of one type, components first, and the trailing shape."""
+    arrays = {name: np.asarray(value) for name, value in inputs.items()}
+    for name, array in arrays.items():
+        head = HEADS[name]
+        if array.dtype.kind not in "iuf" or array.shape[: len(head)] != head:
+            wanted = ", ".join([*map(str, head), "..."])
+            kind = f"{array.dtype} of shape {array.shape}"
+            raise ValueError(f"{name} must hold real numbers in the shape ({wanted}), not {kind}")
+    dtype = np.float32 if np.result_type(*arrays.values()) == np.float32 else np.float64
+    try:
+        shape = np.broadcast_shapes(*(a.shape[len(HEADS[name]) :] for name, a in arrays.items()))
+    except ValueError:
+        shapes = " and ".join(f"{name} {a.shape}" for name, a in arrays.items())
+        raise ValueError(f"{shapes} do not broadcast after their first axis") from None
+    ready = []
+    for name, array in arrays.items():
+        head = HEADS[name]
+        fill = (1,) * (len(head) + len(shape) - array.ndim)
+        array = array.reshape((*head, *fill, *array.shape[len(head) :]))
+        ready.append(np.broadcast_to(array, (*head, *shape)).astype(dtype, copy=False))
+    return ready, shape
+
+
+def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
+    """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
+    shapes = [(*HEADS[name], *shape) for name in names]
+    if out is None:
+        return [np.empty(wanted, dtype) for wanted in shapes]
+    given = out if isinstance(out, tuple) else (out,)
+    if len(given) != len(names):
+        raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
+    for name, array, wanted in zip(names, given, shapes, strict=True):
+        kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
+        if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
+            raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
+    return list(given)
+
+
+def _apply(
+    body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
+) -> list[Array]:
+    """Runs ``body`` over blocks of points, straight into the results where that is safe."""
+    arrays, shape = _arguments(inputs)
+    results = _results(names, shape, arrays[0].dtype, out)
+    points = math.prod(shape)
+    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    direct = all(
+        r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
+    )
+    flat = [
+        (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
+        for name, r in zip(names, results, strict=True)
+    ]
+    blocks = max(1, -(-points // BLOCK))
+    size = max(1, -(-points // blocks))  # blocks of one length
+    scratch = np.empty((ROWS, size), arrays[0].dtype)
+    with np.errstate(under="ignore"):
+        for start in range(0, points, size):
+            part = slice(start, min(start + size, points))
+            work = scratch[:, : part.stop - start]
+            body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
+    if not direct:
+        for result, values in zip(results, flat, strict=True):
+            result[...] = values.reshape(result.shape)
+    return results
+
+
+def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None:
+    """(u, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n)."""
+    s = [*u, *v, *work]
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    mu_1, mu_2, nu_1, nu_2, dilatation, twist = values
+    *_, factor = _soften(y, c, s[8:])
+    reach = factor if size is y else factor * y / size
+    bend = np.multiply(c.per_alpha, reach, out=s[6])
+    np.multiply(bend, mu_1, out=u[0])
+    np.multiply(bend, mu_2, out=u[1])
+    turn = np.multiply(c.per_beta, reach, out=s[6])
+    np.multiply(turn, twist, out=u[2])
+    shear = np.multiply(c.per_zeta, reach, out=s[6])
+    np.multiply(nu_1, shear, out=v[0])
+    np.multiply(nu_2, shear, out=v[1])
+    extend = np.multiply(c.per_eta, reach, out=s[11])
+    np.multiply(dilatation, extend, out=v[2])
+    v[2] += 1
+
+
+def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+    """Strains u, v under the loads m, n (eq:uconst to eq:v3const).
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, v (3, ...) plain; at rest u = 0, v = (0, 0, 1).
+    """
+    u, v = _apply(_strains, {"m": m, "n": n}, constants, ("u", "v"), out)
+    return u, v
+
+
+def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
+    """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
+    s = [*work]
+    _, _, y, _ = _balanced(_reduce_loads, loads, c, s)
+    ratio, power, factor = _soften(y, c, s[8:])
+    strain = np.multiply(factor, y, out=s[11])
+    depth = np.log1p(power, out=s[10])
+    depth -= np.multiply(c.p, np.where(y <= c.gamma, 0.0, np.log(ratio)), out=s[9])
+    np.subtract(1, _work_share(depth, c), out=w_star)
+    w_star *= strain
+    w_star *= y
+
+
+def complementary_energy(
+    m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None
+) -> Array:
+    """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    """
+    (w_star,) = _apply(_complementary_energy, {"m": m, "n": n}, constants, ("w_star",), out)
+    return w_star
+
+
+Number = Any  # a float or an array
+Numbers = Sequence[Any]  # one for each component
+
+
+def _frame(sines: Numbers, cosines: Numbers) -> Numbers:
+    """The directors' components g_i . d_k, all of g_1 first."""
+    sin_phi, sin_theta, sin_psi = sines
+    cos_phi, cos_theta, cos_psi = cosines
+    return (
+        cos_phi * cos_psi * cos_theta - sin_phi * sin_psi,
+        -(cos_phi * cos_theta * sin_psi + cos_psi * sin_phi),
+        cos_phi * sin_theta,
+        cos_phi * sin_psi + cos_psi * cos_theta * sin_phi,
+        cos_phi * cos_psi - cos_theta * sin_phi * sin_psi,
+        sin_phi * sin_theta,
+        -cos_psi * sin_theta,
+        sin_psi * sin_theta,
+        cos_theta,
+    )
+
+
+def _axis(sine: Number, cosine: Number) -> Numbers:
+    """The components of g_3 in the intermediate frame."""
+    sin_theta = sine
+    cos_theta = cosine
+    return (
+        -sin_theta,
+        0.0,
+        cos_theta,
+    )
+
+
+def _stack(rows: Numbers) -> Array:
+    """One array of components, floats spread over the arrays' shape."""
+    shapes = [row.shape for row in rows if isinstance(row, np.ndarray)]
+    if not shapes:
+        return np.array(rows)
+    out = np.empty((len(rows), *np.broadcast_shapes(*shapes)))
+    for i, row in enumerate(rows):
+        out[i] = row
+    return out
+
+
+@dataclass(frozen=True)
+class State:
+    """A rod in equilibrium whose strains are constant in a frame that turns at a constant rate.
+
+    The force is thrust g_3, the couple is couple g_3; theta is the angle of d_3 and g_3. In the
+    intermediate frame e_k = R_3(phi) R_2(theta), phi = precession s, psi = spin s, the strains are
+    u (3, ...) and v (3, ...). energy is the stored energy less the work of the loads, per length:
+    -W* - thrust cos(theta), by which states under one load are compared. kind is straight, sheared,
+    twisted, helix or circle. Numbers, or arrays of one shape.
+    """
+
+    kind: str
+    thrust: Number
+    couple: Number
+    theta: Number
+    sine: Number
+    cosine: Number
+    precession: Number
+    spin: Number
+    u: Array
+    v: Array
+    energy: Number
+
+    @property
+    def across(self) -> Number:
+        """The tangent's length across g_3; its length along g_3 is `along`."""
+        return self.cosine * self.v[0] + self.sine * self.v[2]
+
+    @property
+    def along(self) -> Number:
+        """The tangent's length along g_3: the height of the rod over its reference length."""
+        return self.cosine * self.v[2] - self.sine * self.v[0]
+
+    @property
+    def curvature(self) -> Number:
+        """Of the center line, 1/length."""
+        return np.abs(self.across * self.precession) / (self.across**2 + self.along**2)
+
+    @property
+    def torsion(self) -> Number:
+        """Of the center line, 1/length; positive where it is a right-handed helix."""
+        return self.along * self.precession / (self.across**2 + self.along**2)
+
+    def angles(self, s: Number) -> Array:
+        """phi, theta, psi at s, (3, ...)."""
+        return _stack((self.precession * s, self.theta + 0 * s, self.spin * s))
+
+    def directors(self, s: Number) -> Array:
+        """(3, 3, ...): column k - 1 is d_k in the fixed basis."""
+        turns = (self.precession * s, self.spin * s)
+        sines = [np.sin(turns[0]), self.sine, np.sin(turns[1])]
+        cosines = [np.cos(turns[0]), self.cosine, np.cos(turns[1])]
+        entries = _stack(_frame(sines, cosines))
+        return entries.reshape(3, 3, *entries.shape[1:])
+
+    def center_line(self, s: Number) -> Array:
+        """r(s) from r(0) = 0, (3, ...), in the fixed basis."""
+        half = self.precession * s / 2
+        reach = self.across * s * np.sinc(half / np.pi)
+        return _stack((reach * np.cos(half), reach * np.sin(half), self.along * s))
+
+    def strains_at(self, s: Number) -> Pair:
+        """u and v in the directors at s, (3, ...) each."""
+        return self._in_directors(self.u, s), self._in_directors(self.v, s)
+
+    def loads_at(self, s: Number) -> Pair:
+        """m and n in the directors at s, (3, ...) each."""
+        tilt = _stack(_axis(self.sine, self.cosine))
+        return self._in_directors(self.couple * tilt, s), self._in_directors(self.thrust * tilt, s)
+
+    def rows(self, s: Number) -> Array:
+        """The state of `rodproof.generated.equilibria.directors`: q, m, r, (10, ...)."""
+        first, second = self.precession * s, self.spin * s
+        # half the angle from its sine and cosine, without losing small ones
+        low = np.sqrt((1 + np.abs(self.cosine)) / 2)
+        high = self.sine / (2 * low)
+        up = self.cosine >= 0
+        cosine, sine = np.where(up, low, high), np.where(up, high, low)
+        plus, minus = (first + second) / 2, (first - second) / 2
+        q = (cosine * np.cos(plus), -sine * np.sin(minus), sine * np.cos(minus),
+             cosine * np.sin(plus))
+        return _stack((*q, *self.loads_at(s)[0], *self.center_line(s)))
+
+    def _in_directors(self, vector: Array, s: Number) -> Array:
+        """Components in the directors from those in the intermediate frame, at s."""
+        sine, cosine = np.sin(self.spin * s), np.cos(self.spin * s)
+        x, y, z = vector
+        return _stack((x * cosine + y * sine, y * cosine - x * sine, z + 0 * cosine))
+
+
+@dataclass(frozen=True)
+class Branch:
+    """Where a rod shears under a thrust, once a set of constants; nothing of it depends on N.
+
+    threshold + remainder is the thrust at which the sheared states begin, to twice a float's
+    digits. ratio is b/c, quotient b/c^2, log_quotient -p/2 log(b/c^2) for a = 1/zeta^2,
+    b = beta^2/(beta^2 eta^2 - iota^2), c = a - b. limit holds sin^2 and cos^2 of the last angle.
+    """
+
+    threshold: float
+    remainder: float
+    ratio: float
+    quotient: float
+    log_quotient: float
+    limit: tuple[float, float]
+
+
+@cache
+def _branch(constants: Constants) -> Branch:
+    """The branch in exact arithmetic, rounded at the end; ValueError names what fails."""
+    exact = (Fraction(getattr(constants, name)) for name in ("beta", "zeta", "eta", "iota"))
+    beta, zeta, eta, iota = exact
+    a = 1 / zeta**2
+    b = beta**2 / (beta**2 * eta**2 - iota**2)
+    c = a - b
+    if c <= 0:
+        raise ValueError(
+            "no sheared states: the rod must be softer in shear than in extension,"
+            f" 1/zeta^2 - beta^2/(beta^2 eta^2 - iota^2) > 0, not {float(c)!r}"
+        )
+    if c**2 <= b:
+        raise ValueError(
+            "no sheared states: 1/zeta^2 - beta^2/(beta^2 eta^2 - iota^2) must exceed"
+            f" beta (beta^2 eta^2 - iota^2)^(-1/2), not {float(c)!r} against {math.sqrt(b)!r}"
+        )
+    sharp = a / c / (c + 1)
+    with localcontext() as context:
+        context.prec = 100
+        context.Emax, context.Emin = MAX_EMAX, MIN_EMIN
+        p, gamma = Decimal(constants.p), Decimal(constants.gamma)
+        log_quotient = p / 2 * (_decimal(c**2 / b)).ln()
+        threshold = gamma / _decimal(c) * (-(1 - (-log_quotient).exp()).ln() / p).exp()
+        if threshold.adjusted() > 307:
+            raise ValueError(f"the threshold of the sheared states, {threshold:.3e}, is no float")
+        start = float(threshold)
+        remainder = float(threshold - Decimal(start))
+    return Branch(
+        start,
+        remainder,
+        float(b / c),
+        float(b / c**2),
+        float(log_quotient),
+        (float(1 - sharp), float(sharp)),
+    )
+
+
+def _decimal(value: Fraction) -> Decimal:
+    return Decimal(value.numerator) / Decimal(value.denominator)
+
+
+def threshold(constants: Constants) -> float:
+    """N_thresh: sheared states exist for |N| > N_thresh (n-thresh, extra-threshold-sharp).
+
+    N_thresh^-p = c^p - b^(p/2) in units of gamma, rounded once. Raises ValueError, with the
+    condition on the moduli that fails and by how much.
+    """
+    return _branch(constants).threshold
+
+
+def limiting_angle(constants: Constants) -> float:
+    """The angle of the sheared states as N grows without bound; errors as of `threshold`."""
+    sine, cosine = _branch(constants).limit
+    return math.atan2(math.sqrt(sine), math.sqrt(cosine))
+
+
+def sheared_angle(thrust: ArrayLike, constants: Constants) -> Array:
+    """theta of the sheared state under N g_3, in (0, pi/2) for N > 0, in (pi/2, pi) for N < 0.
+
+    thrust is N, a number or an array. With y the load radius over gamma and c N x = (1 + y^p)^(1/p)
+    (x = cos theta, N over gamma) the equation is y^2 + (1 + y^p)^(2/p)/c = a N^2, its slope in y^2
+    between 1 and 1 + 1/c for p >= 2; for p = 2 it is linear. It is solved less its value
+    at the threshold, for t in sin^2 theta = b/c t (1 - (N_thresh/N)^2): monotonically by Newton,
+    to the last digits from just above the threshold to infinity. Raises ValueError where
+    |N| <= N_thresh, with the threshold, and as `threshold` does.
+    """
+    N = np.asarray(thrust, dtype=float)
+    sine, cosine = _sheared(N, constants)
+    return np.asarray(np.arctan2(sine, np.where(N > 0, cosine, -cosine)))
+
+
+def _sheared(N: Array, constants: Constants) -> tuple[Array, Array]:
+    """sin theta and |cos theta| of the sheared states."""
+    branch, p = _branch(constants), constants.p
+    size = np.abs(N)
+    start, rest = branch.threshold, -math.expm1(-branch.log_quotient)
+    over = (size - start) - branch.remainder  # exact near the threshold
+    bad = np.flatnonzero(~((over > 0) & (size < math.inf)))
+    if bad.size:
+        first = float(np.ravel(N)[bad[0]])
+        raise ValueError(
+            f"no sheared state at N = {first!r}: |N| must be finite and exceed the threshold"
+            f" {start!r}, which lies {start - abs(first)!r} above"
+        )
+    with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
+        over = over / size  # 1 - N_thresh/N
+        under = start / size
+        rise = over * (1 + under)  # 1 - (N_thresh/N)^2
+        per = under**2 / rise  # the reciprocal of (N/N_thresh)^2 - 1
+        log_rise = np.log(rise) + 2 * (np.log(size) - math.log(start))
+        t = np.full(np.shape(N), 1 / branch.ratio if p >= 2 else 0.0)
+        for _ in range(100):
+            growth, slope = _growth(t, per, log_rise, rest, branch, p)
+            step = (branch.ratio * t + growth - 1) / (branch.ratio + slope)
+            t = t - step
+            if not (np.abs(step) > 2**-52 * t).any():
+                break
+        growth, _ = _growth(t, per, log_rise, rest, branch, p)
+        sine, cosine = branch.ratio * t * rise, under**2 + rise * growth
+    return np.sqrt(sine), np.sqrt(cosine)
+
+
+def _growth(
+    t: Array, per: Array, log_rise: Array, rest: float, branch: Branch, p: float
+) -> tuple[Array, Array]:
+    """((1 + y^p)^(2/p) over its value at the threshold, less 1), times per; its slope by t.
+
+    At (y/y_thresh)^2 = 1 + (1 + t)/per.
+    """
+    lean = 1 + t + per
+    log_square = np.where(per < 1, np.log(lean) + log_rise, np.log1p((1 + t) / per))
+    up = p / 2 * log_square - branch.log_quotient
+    above = up > 0
+    beside = np.exp(np.minimum(-up, 0)) * rest
+    beneath = np.exp(np.minimum(up, 0))
+    inside = beneath * -np.expm1(-p / 2 * log_square)
+    power = 2 / p * np.where(above, up + np.log1p(beside), np.log1p(inside))
+    whole = branch.quotient * lean * np.exp(2 / p * np.log1p(beside)) - per
+    growth = np.where(above & (log_square > 1), whole, np.expm1(np.minimum(power, 700)) * per)
+    weight = np.where(above, 1 / (1 + beside), beneath / (beneath + rest))
+    return growth, (growth + per) / lean * weight
+
+
+def straight(thrust: ArrayLike, constants: Constants, *, turned: bool = False) -> State:
+    """The straight state under N g_3: theta = 0, or pi if turned (section 4.2).
+
+    It exists for every N, as long as v_3 > 0: a rod that compresses to nothing is refused
+    (ValueError). Pulled where N cos(theta) > 0.
+    """
+    N = np.asarray(thrust, dtype=float)
+    cosine = np.full(N.shape, -1.0 if turned else 1.0)
+    state = _under_thrust("straight", N, np.zeros(N.shape), cosine, constants)
+    return _not_flat(state, "thrust")
+
+
+def sheared(thrust: ArrayLike, constants: Constants) -> State:
+    """The sheared state under N g_3; raises as `sheared_angle`."""
+    N = np.asarray(thrust, dtype=float)
+    sine, cosine = _sheared(N, constants)
+    return _under_thrust("sheared", N, sine, np.where(N > 0, cosine, -cosine), constants)
+
+
+def twisted(couple: ArrayLike, constants: Constants) -> State:
+    """The straight, twisted state under M g_3 (section 4.3); the helix at theta = 0."""
+    return helix(couple, 0.0, constants)
+
+
+def circle(couple: ArrayLike, constants: Constants) -> State:
+    """The state bent into a circle under M g_3 (section 4.3); the helix at theta = pi/2."""
+    return helix(couple, math.pi / 2, constants)
+
+
+def helix(couple: ArrayLike, theta: ArrayLike, constants: Constants) -> State:
+    """The helical state about g_3 under M g_3 with the angle theta in [0, pi] (section 4.3).
+
+    Every couple and angle give one. M and theta stay regular where the paper's M_1 = -M sin theta
+    does not, at theta = 0. Raises ValueError where v_3 > 0 fails.
+    """
+    M, angle = np.broadcast_arrays(np.asarray(couple, dtype=float), np.asarray(theta, dtype=float))
+    if not ((angle >= 0) & (angle <= math.pi)).all():
+        raise ValueError("theta must lie in [0, pi]")
+    sine = np.sin(angle)
+    cosine = np.where(angle == math.pi / 2, 0.0, np.cos(angle))
+    sine = np.where(angle == math.pi, 0.0, sine)
+    kind = "twisted" if not sine.any() else "helix" if np.abs(cosine).any() else "circle"
+    loads = M * _stack(_axis(sine, cosine))
+    u, v = strains(loads, np.zeros_like(loads), constants)
+    ratio = float(_bend_over_twist(constants))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        turn = np.where(np.abs(sine) > np.abs(cosine), -u[0] / sine, ratio * u[2] / cosine)
+    energy = -complementary_energy(loads, np.zeros_like(loads), constants)
+    state = State(
+        kind, np.zeros(M.shape), M, angle, sine, cosine, turn, u[2] - cosine * turn, u, v, energy
+    )
+    return _not_flat(state, "couple")
+
+
+def _bend_over_twist(constants: Constants) -> Fraction:
+    """The compliance to bending over that to twist, exactly."""
+    exact = (Fraction(getattr(constants, n)) for n in ("alpha", "beta", "eta", "iota"))
+    alpha, beta, eta, iota = exact
+    return (beta**2 * eta**2 - iota**2) / alpha**2 / eta**2
+
+
+def _under_thrust(kind: str, N: Array, sine: Array, cosine: Array, c: Constants) -> State:
+    """The state under N g_3 at an angle."""
+    loads = N * _stack(_axis(sine, cosine))
+    none = np.zeros_like(loads)
+    u, v = strains(none, loads, c)
+    energy = -complementary_energy(none, loads, c) - loads[2]
+    theta = np.arctan2(sine, cosine)
+    return State(kind, N, np.zeros(N.shape), theta, sine, cosine, np.zeros(N.shape), u[2], u, v,
+                 energy)
+
+
+def _not_flat(state: State, load: str) -> State:
+    """The state, if v_3 > 0 in all of it."""
+    bad = np.flatnonzero(~(state.v[2] > 0))
+    if bad.size:
+        first = np.ravel(getattr(state, load))[bad[0]]
+        raise ValueError(
+            f"no {state.kind} state at {load} = {first}: v_3 > 0 fails, it is"
+            f" {np.ravel(state.v[2])[bad[0]]}"
+        )
+    return state
+
+
+def equilibria(thrust: float, constants: Constants) -> list[State]:
+    """All equilibria under N g_3 without couples, but for turns about g_3; lowest energy first.
+
+    Without a thrust there is one, the rod at rest. Else the straight state that is pulled; the
+    straight state that is pushed, unless it would compress to nothing; and above the threshold the
+    sheared state, which then has the lowest energy.
+    """
+    N = float(thrust)
+    if not math.isfinite(N):
+        raise ValueError(f"thrust must be finite, not {N}")
+    if N == 0:
+        return [straight(N, constants)]
+    pulled, pushed = N < 0, N > 0
+    candidates: Sequence[Callable[[], State]] = (
+        lambda: sheared(N, constants),
+        lambda: straight(N, constants, turned=pulled),
+        lambda: straight(N, constants, turned=pushed),
+    )
+    found = []
+    for state in candidates:
+        with suppress(ValueError):
+            found.append(state())
+    return found
