@@ -18,9 +18,9 @@ def write(folder: Path, evidence: Sequence[Evidence]) -> Path:
     """Write the site into `folder`, and the same evidence as `verdicts.json`; its first page.
 
     Everything is rendered before anything is written; each file is written whole or not at all.
-    The report shown is the one that lies in `report` beside the folder.
+    The reports and the guide shown are those that lie in `report` and `guide` beside the folder.
     """
-    texts = pages.render(evidence, folder.parent / "report")
+    texts = pages.render(evidence, folder.parent)
     texts |= {path.name: path.read_text("utf-8") for path in sorted(_ASSETS.iterdir())}
     texts["verdicts.json"] = data(evidence)
     for name, text in texts.items():

@@ -13,7 +13,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from rodproof.codegen.site import mathml, words
-from rodproof.codegen.site.reports import reports
+from rodproof.codegen.site.reports import articles
 from rodproof.codegen.site.scenes import shown
 from rodproof.derivations import chapters
 from rodproof.derivations.latex import block
@@ -27,6 +27,7 @@ NAVIGATION = (
     ("derivation.html", "Derivation"),
     ("scenes.html", "Scenes"),
     ("report.html", "Report"),
+    ("guide.html", "Guide"),
 )
 
 
@@ -52,19 +53,19 @@ class Place:
         return self.derivation.steps[self.number - 1]
 
 
-def render(evidence: Sequence[Evidence], report: Path) -> dict[str, str]:
-    """The text of every page by its place in the site."""
+def render(evidence: Sequence[Evidence], documents: Path) -> dict[str, str]:
+    """The text of every page by its place in the site, which lies in ``documents``."""
     environment = _environment()
     return {
         name: environment.get_template(template).render(
             here=name, root="../" * name.count("/"), **more
         )
-        for name, template, more in _pages(evidence, report)
+        for name, template, more in _pages(evidence, documents)
     }
 
 
 def _pages(
-    evidence: Sequence[Evidence], report: Path
+    evidence: Sequence[Evidence], documents: Path
 ) -> Iterator[tuple[str, str, dict[str, object]]]:
     """Place, template and contents of each page."""
     derivations = tuple(chapters.derive(label) for label in chapters.labels())
@@ -77,9 +78,11 @@ def _pages(
         "derivations": derivations,
         "scenes": scenes,
     }
-    for name, _ in NAVIGATION[:-1]:
+    for name, _ in NAVIGATION[:-2]:
         yield name, name, whole
-    yield "report.html", "report.html", {"reports": reports(report, f"../{report.name}")}
+    for name in ("report", "guide"):
+        found = articles(documents / name, f"../{name}")
+        yield f"{name}.html", f"{name}.html", {"articles": found}
     for before, row, after in _neighbours(evidence):
         places = tuple(Place(*found) for found in chapters.settling(row.id, row.section))
         more: dict[str, object] = {"row": row, "before": before, "after": after, "places": places}

@@ -183,4 +183,6 @@ def pages(
     """The site, written once, with the report of the project beside it."""
     docs = tmp_path_factory.mktemp("docs")
     shutil.copytree(root / "docs" / "report", docs / "report", ignore=lambda *_: ["quick"])
+    for name in ("guide", "examples"):
+        shutil.copytree(root / "docs" / name, docs / name)
     return site.write(docs / "site", evidence).parent

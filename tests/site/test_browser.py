@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-PAGES = ("index", "statements", "errata", "derivation", "scenes", "report")
+PAGES = ("index", "statements", "errata", "derivation", "scenes", "report", "guide")
 DEEP = ("statement/hess-m3-v3", "statement/q-forms-positive-definite", "scene/full_rod")
 SHOWN = "[...document.querySelectorAll('#rows tbody tr')].filter(row => row.offsetParent).length"
 COUNT = "document.getElementById('count').textContent"
