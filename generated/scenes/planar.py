@@ -280,17 +280,20 @@ def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
             kind = f"{array.dtype} of shape {array.shape}"
             raise ValueError(f"{name} must hold real numbers in the shape ({wanted}), not {kind}")
     dtype = np.float32 if np.result_type(*arrays.values()) == np.float32 else np.float64
+    shapes = {a.shape[len(HEADS[name]) :] for name, a in arrays.items()}
     try:
-        shape = np.broadcast_shapes(*(a.shape[len(HEADS[name]) :] for name, a in arrays.items()))
+        shape = shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
     except ValueError:
-        shapes = " and ".join(f"{name} {a.shape}" for name, a in arrays.items())
-        raise ValueError(f"{shapes} do not broadcast after their first axis") from None
+        given = " and ".join(f"{name} {a.shape}" for name, a in arrays.items())
+        raise ValueError(f"{given} do not broadcast after their first axis") from None
     ready = []
     for name, array in arrays.items():
         head = HEADS[name]
-        fill = (1,) * (len(head) + len(shape) - array.ndim)
-        array = array.reshape((*head, *fill, *array.shape[len(head) :]))
-        ready.append(np.broadcast_to(array, (*head, *shape)).astype(dtype, copy=False))
+        if array.shape != (*head, *shape):
+            fill = (1,) * (len(head) + len(shape) - array.ndim)
+            array = array.reshape((*head, *fill, *array.shape[len(head) :]))
+            array = np.broadcast_to(array, (*head, *shape))
+        ready.append(array.astype(dtype, copy=False))
     return ready, shape
 
 
@@ -303,8 +306,8 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     if len(given) != len(names):
         raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
     for name, array, wanted in zip(names, given, shapes, strict=True):
-        kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
         if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
+            kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
             raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
     return list(given)
 
