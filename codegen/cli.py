@@ -278,6 +278,21 @@ def open_site(as_json: Json = False) -> None:
 
 
 @app.command()
+def equilibria(as_json: Json = False) -> None:
+    """Confirm section 4 by solving: integrate, solve and continue, beside the closed forms."""
+    from dataclasses import asdict
+
+    from rodproof.codegen.measure import branches
+
+    found = branches.confirm()
+    if as_json:
+        show.as_json(asdict(found))
+    else:
+        columns = ("problem", "closed form", "solved", "apart")
+        show.table(columns, branches.rows(found))
+
+
+@app.command()
 def measure(
     quick: Quick = False,
     out: Annotated[

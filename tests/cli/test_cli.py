@@ -14,7 +14,7 @@ from rodproof.codegen.cli import app
 
 COMMANDS = (
     *("run", "derive", "check", "errata", "scenes"),
-    *("generate", "document", "open", "measure", "report"),
+    *("generate", "document", "open", "equilibria", "measure", "report"),
 )
 
 
