@@ -213,6 +213,9 @@ def generate(
     ] = False,
     own: Annotated[Path | None, typer.Option("--scene", help="A scene file of your own.")] = None,
     out: Annotated[Path | None, typer.Option(help="Where the module of --scene goes.")] = None,
+    target: Annotated[
+        str | None, typer.Option(help="numpy or numba, for --scene; the scene's first by default.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Rewrite generated/ from the derivation."""
@@ -222,10 +225,14 @@ def generate(
 
     with one_sentence():
         if (own is None) != (out is None) or (own and (names or check_only)):
-            raise ValueError("--scene FILE goes with --out FILE, and with nothing else")
+            raise ValueError("--scene FILE goes with --out FILE, and with nothing but --target")
+        if target and not own:
+            raise ValueError("--target goes with --scene; committed scenes name their targets")
         verdicts = ledger.recorded()
         if own and out:
-            text = generator.render(scene.load(own), verdicts)
+            loaded = scene.load(own)
+            scene.known("target", target or loaded.targets[0], tuple(scene.TARGETS))
+            text = generator.render(loaded, verdicts, target or loaded.targets[0])
             _written([generator.write_text(out, text)], as_json)
             return
         folder = places.checkout().generated

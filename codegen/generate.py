@@ -23,15 +23,18 @@ from rodproof.codegen.passes.name import name
 from rodproof.codegen.passes.order import order
 from rodproof.codegen.passes.share import share
 from rodproof.codegen.passes.specialise import drop_dead, specialise
-from rodproof.codegen.scene import Scene
-from rodproof.codegen.targets.numpy_target import print_module
+from rodproof.codegen.scene import TARGETS, Scene
+from rodproof.codegen.targets import numba_target, numpy_target
 from rodproof.derivations.symbols import CONSTANTS
 
 Pass = Callable[[Kernel], Kernel]
 
-FOLDER = "scenes"
-FOLDERS = (FOLDER, equilibria.FOLDER)
-INIT = '"""One module a scene; every byte is written by rodproof.codegen."""\n'
+PRINTERS = {"numpy": numpy_target.print_module, "numba": numba_target.print_module}
+FOLDERS = (*TARGETS.values(), equilibria.FOLDER)
+INIT = {
+    "numpy": '"""One module a scene; every byte is written by rodproof.codegen."""\n',
+    "numba": '"""Modules that need numba, one a scene; written by rodproof.codegen."""\n',
+}
 
 
 @dataclass(frozen=True)
@@ -68,15 +71,19 @@ def kernels(scene: Scene) -> tuple[Kernel, ...]:
     return tuple(done)
 
 
-def render(scene: Scene, verdicts: Mapping[str, str] | None = None) -> str:
+def render(scene: Scene, verdicts: Mapping[str, str] | None = None, target: str = "numpy") -> str:
     """The text of the scene's module; ``verdicts`` maps statement ids to what the header says."""
-    return print_module(scene, kernels(scene), verdicts)
+    return PRINTERS[target](scene, kernels(scene), verdicts)
 
 
 def files(scenes: Iterable[Scene], verdicts: Mapping[str, str] | None = None) -> dict[str, str]:
     """What the folder ``generated`` holds for these scenes: relative path to text."""
-    texts = {f"{FOLDER}/__init__.py": INIT}
-    return texts | {f"{FOLDER}/{s.name}.py": render(s, verdicts) for s in scenes}
+    texts = {}
+    for s in scenes:
+        for target in s.targets:
+            texts[f"{TARGETS[target]}/__init__.py"] = INIT[target]
+            texts[f"{TARGETS[target]}/{s.name}.py"] = render(s, verdicts, target)
+    return texts
 
 
 def everything(verdicts: Mapping[str, str] | None = None) -> dict[str, str]:

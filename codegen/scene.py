@@ -40,6 +40,8 @@ FUNCTIONS = (
 )
 #: Where loads are declared zero the strains are not free, and nothing is a derivative by them.
 BY_STRAINS = ("loads", "stored_energy", "stiffness", "loads_and_stiffness", "stiffness_at_loads")
+#: What a module is written for, and the folder of ``generated`` that holds the committed ones.
+TARGETS = {"numpy": "scenes", "numba": "numba"}
 CONSTANT_NAMES = ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p")
 LOAD_NAMES = tuple(s.name for s in LOADS)
 STRAIN_NAMES = tuple(s.name for s in STRAINS)
@@ -145,6 +147,14 @@ class Scene:
             (*CONSTANT_NAMES, *LOAD_NAMES, *STRAIN_NAMES),
         ),
     )
+    targets: tuple[str, ...] = field(
+        default=("numpy",),
+        metadata=_key(
+            "names",
+            "What to write: a NumPy module, a module of functions that numba compiles, or both.",
+            TARGETS,
+        ),
+    )
     layout: str = field(
         default="first",
         metadata=_key("choice", "Components on the first or the last axes.", ("first", "last")),
@@ -171,6 +181,8 @@ class Scene:
             raise SceneError(f"scene name {self.name!r} is not a Python identifier")
         if '"' in self.summary or "\\" in self.summary or "\n" in self.summary:
             raise SceneError(f"scene {self.name}: summary must be one line without quotes")
+        if not self.targets:
+            raise SceneError(f"scene {self.name}: targets must name at least one target")
         if not self.functions:
             raise SceneError(f"scene {self.name}: functions must name at least one function")
         for name, key in keys().items():

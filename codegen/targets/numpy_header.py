@@ -15,15 +15,18 @@ from rodproof.derivations.theory import constrained
 WIDTH = 98
 
 
-def header(scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str]) -> str:
-    """The module's docstring."""
+def header(
+    scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str], target: str = ""
+) -> str:
+    """The module's docstring; ``target`` is named in the command unless it is NumPy."""
     statements = dict.fromkeys(s for kernel in kernels for s in kernel.statements())
     cited = "; ".join(_statement(s, verdicts) for s in statements)
+    option = f" --target {target}" if target else ""
     noted = "paper label, verdict; as corrected if refuted" if verdicts else "paper label"
     lines = [
         f'"""{scene.summary}',
         "",
-        f"Scene {scene.name}, made by: rodproof generate {scene.name}",
+        f"Scene {scene.name}, made by: rodproof generate {scene.name}{option}",
         *(line for said in scope(scene) for line in ("", *textwrap.wrap(said, WIDTH))),
         *(line for said in _ranges(scene, kernels) for line in ("", *textwrap.wrap(said, WIDTH))),
         "",

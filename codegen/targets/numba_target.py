@@ -1,0 +1,416 @@
+"""Prints kernels as a numba module: compiled functions of one point, and loops over points.
+
+For each function there are ``NAME_at``, for other compiled code, and ``NAME``, for arrays, with the
+arguments and answers of the NumPy module. The loop does every point without branches, so that it
+may be vectorised, and a block again with care where squares or the limit ask for it.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+
+from rodproof.codegen.kernel import Kernel
+from rodproof.codegen.scene import Scene
+from rodproof.codegen.targets import numba_template as template
+from rodproof.codegen.targets import numpy_template, scalar
+from rodproof.codegen.targets.numpy_constants import (
+    all_have_values,
+    derived_constants,
+    needs_work_share,
+    print_constants,
+    used_constants,
+)
+from rodproof.codegen.targets.numpy_header import header
+from rodproof.codegen.targets.printer import wrapped
+from rodproof.codegen.texts import FunctionText, function_text
+
+INDENT = "    "
+ROW = 7  # entries stored a line
+
+
+def print_module(
+    scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str] | None = None
+) -> str:
+    """The module's text; ``verdicts`` adds a verdict to each statement of the header."""
+    words = {kernel.name: function_text(kernel, scene) for kernel in kernels}
+    heads = {n: h for text in words.values() for n, h in (text.inputs | text.outputs).items()}
+    places = numpy_template.FIRST if scene.layout == "first" else numpy_template.LAST
+    first = scene.layout == "first"
+    flat = "*HEADS[name], points" if first else "points, *HEADS[name]"
+    parts = [
+        _constants(scene, kernels),
+        *([template.WORK_SHARE] if needs_work_share(kernels) else []),
+        *([template.SCALES] if any(kernel.gauge for kernel in kernels) else []),
+        *_moves(words, scene),
+        *(
+            part
+            for kernel in kernels
+            for part in _compiled(kernel, words[kernel.name], kernels, scene)
+        ),
+        numpy_template.ARGUMENTS.substitute(places, dtype=numpy_template.DTYPES[scene.precision]),
+        template.APPLY.substitute(
+            flat=flat,
+            shape="(*HEADS[name], points)",
+            trailing="-1:",
+            end="-1",
+        ),
+        *(_public(kernel, words[kernel.name], scene, kernels) for kernel in kernels),
+    ]
+    parts[1:1] = _functions("\n".join(parts))
+    text = _fitted("\n\n\n".join(part.strip("\n") for part in parts) + "\n")
+    top = header(scene, kernels, verdicts or {}, target="numba")
+    return f"{top}\n\n{_imports(scene, kernels, words, heads, text)}\n\n{text}"
+
+
+def _fitted(text: str) -> str:
+    """With calls and definitions that run over the line broken after their first parenthesis."""
+    return "\n".join(
+        broken
+        for line in text.split("\n")
+        for broken in _fitting(line, line[: len(line) - len(line.lstrip())])
+    )
+
+
+def _functions(text: str) -> list[str]:
+    """The functions of the math module that the text calls, and those that they call."""
+    found: list[str] = []
+    for name in reversed(template.FUNCTIONS):
+        if re.search(rf"(?<!def ){name}\(", text + "".join(found)):
+            found.insert(0, template.FUNCTIONS[name])
+    return found
+
+
+def _imports(
+    scene: Scene,
+    kernels: tuple[Kernel, ...],
+    words: Mapping[str, FunctionText],
+    heads: Mapping[str, tuple[int, ...]],
+    text: str,
+) -> str:
+    """Imports, names of types, and numbers."""
+    standard = ["from fractions import Fraction"] if derived_constants(kernels) else []
+    standard += ["from functools import cached_property"]
+    functions = ("frexp", "ldexp", "sqrt")
+    used = [name for name in functions if re.search(rf"(?<![\w.]){name}\(", text)]
+    several = sorted({len(found.outputs) for found in words.values()} - {1})
+    kinds = {2: "Pair = tuple[Array, Array]", 3: "Triple = tuple[Array, Array, Array]"}
+    fields = derived_constants(kernels) or set(scene.fixed) & set(used_constants(kernels))
+    return template.IMPORTS.substitute(
+        field_import=", field" if fields else "",
+        standard_imports="\n".join(standard),
+        functions=", ".join(used),
+        tuples="\n".join(kinds[n] for n in several) or "$",
+        heads="HEADS: dict[str, tuple[int, ...]] = {\n"
+        + "".join(f'    "{name}": {head},\n' for name, head in heads.items())
+        + "}",
+    ).replace("$\n", "")
+
+
+def _constants(scene: Scene, kernels: tuple[Kernel, ...]) -> str:
+    """The record of constants, and the tuple of their values."""
+    names = [*used_constants(kernels), *derived_constants(kernels)]
+    share = needs_work_share(kernels)
+    fields = [f"    {name}: float" for name in names]
+    fields += ["    work_share: tuple[Array, Array, float, float, float]"] if share else []
+    values = [f"            self.{name}," for name in names]
+    values += [template.WORK_SHARE_VALUES] if share else []
+    record, *default = print_constants(scene, kernels).rstrip("\n").split("\n\n\nROD =")
+    made = template.VALUES_PROPERTY.substitute(values="\n".join(values))
+    tail = f"\n\n\nROD ={default[0]}\n" if default else ""
+    listed = template.VALUES.substitute(fields="\n".join(fields)).strip("\n")
+    return f"{listed}\n\n\n{record}\n{made.rstrip()}\n{tail}"
+
+
+def _moves(words: Mapping[str, FunctionText], scene: Scene) -> list[str]:
+    """The functions that copy rows of one block to where they belong."""
+    texts: dict[str, None] = {}
+    for text in words.values():
+        for name, head in text.outputs.items() if _matrix(text) else ():
+            if _is_matrix(name, head) and len(head) == 2:
+                places = [_at("a", scene, *at, at="begin + i") for at in (("j", "k"), ("k", "j"))]
+                lines = (f"{INDENT * 4}{place} = rows[first + i]" for place in places)
+                made = template.SPREAD.substitute(
+                    name=_suffix(head), size=head[0], places="\n".join(lines)
+                )
+            else:
+                place = _at("a", scene, "k", at="begin + i")
+                made = template.MOVE.substitute(length=head[0], place=place)
+            texts[made] = None
+    return list(texts)
+
+
+def _matrix(text: FunctionText) -> tuple[int, ...]:
+    """The shape of the matrix among the outputs, or nothing."""
+    return next((head for name, head in text.outputs.items() if _is_matrix(name, head)), ())
+
+
+def _is_matrix(name: str, head: tuple[int, ...]) -> bool:
+    return bool(head) and name in scalar.LETTERS
+
+
+def _entries(head: tuple[int, ...]) -> int:
+    """How many numbers an output has, a matrix on and above its diagonal."""
+    return math.prod(head) if len(head) < 2 else head[0] * (head[0] + 1) // 2
+
+
+def _suffix(head: tuple[int, ...]) -> str:
+    return "_".join(map(str, head))
+
+
+def _at(array: str, scene: Scene, *index: int | str, at: str = "i") -> str:
+    """An entry of an array at a point."""
+    place = [str(k) for k in index]
+    whole = [*place, at] if scene.layout == "first" else [at, *place]
+    return f"{array}[{', '.join(whole)}]"
+
+
+def _compiled(
+    kernel: Kernel, text: FunctionText, kernels: tuple[Kernel, ...], scene: Scene
+) -> list[str]:
+    """The functions of one point and the loop over points."""
+    known = [*used_constants(kernels), *derived_constants(kernels)]
+    spelling = {name: f"c.{name}" for name in known}
+    square = scalar.square(kernel, scalar.NUMBA)
+    quantity = kernel.limit.quantity if kernel.limit else ""
+    nan = scene.at_limit == "nan"
+    guards = {quantity: [f"{INDENT}{quantity} = {quantity} if {quantity} < 1 else math.nan"]}
+    body = scalar.body(
+        kernel,
+        scalar.NUMBA,
+        spelling,
+        guards if quantity and nan else {},
+        packed=scene.matrix == "packed",
+    )
+    watched = [name for name in (square, "" if nan else quantity) if name]
+    arguments = ", ".join(f"{name}: float" for name in kernel.inputs)
+    scale = ", scale: float" if square else ""
+    lines = [
+        "@at_point",
+        *wrapped(f"def _{kernel.name}(", [f"{arguments}, c: Values{scale}"], ") -> Any:", "", ""),
+        f'{INDENT}"""{text.equation}"""',
+        *body.lines,
+    ]
+    returned = [*scalar.returned(body.answer, ", ".join(watched))]
+    parts = ["\n".join([*lines, *returned])]
+    if square:
+        parts.append(_careful(kernel, watched))
+    stores, moves, rows = _storing(text, scene)
+    parts.append(_at_one(kernel, text, watched))
+    parts.append(_store(kernel, text, stores, rows))
+    parts.append(_over(kernel, text, watched, scene, moves, rows))
+    return parts
+
+
+def _storing(text: FunctionText, scene: Scene) -> tuple[list[str], list[str], int]:
+    """The places of a point's values, what is moved after a block, and the rows that this takes.
+
+    Beside a matrix all goes through rows of one block: a compiler that would have to tell 42 rows
+    of unknown distance apart does not vectorise the loop.
+    """
+    if not _matrix(text):
+        places = [
+            _at(name, scene, *at)
+            for name, head in text.outputs.items()
+            for at in ([(k,) for k in range(head[0])] if head else [()])
+        ]
+        return places, [], 0
+    moves, rows = [], _entries(_matrix(text))
+    for name, head in text.outputs.items():
+        if _is_matrix(name, head):
+            whole = (
+                f"_spread_{_suffix(head)}(rows" if len(head) == 2 else f"_move_{head[0]}(rows, 0"
+            )
+            moves.append(f"{whole}, begin, end, {name})")
+        else:
+            moves.append(f"_move_{_entries(head)}(rows, {rows}, begin, end, {name})")
+            rows += _entries(head)
+    return [f"rows[{k} * BLOCK + i]" for k in _row_order(text)], moves, rows
+
+
+def _row_order(text: FunctionText) -> list[int]:
+    """The row of each value: those of the matrix come first."""
+    found: list[int] = []
+    rest = _entries(_matrix(text))
+    for name, head in text.outputs.items():
+        count = _entries(head)
+        start = 0 if _is_matrix(name, head) else rest
+        rest += 0 if _is_matrix(name, head) else count
+        found += range(start, start + count)
+    return found
+
+
+def _store(kernel: Kernel, text: FunctionText, places: list[str], rows: int) -> str:
+    """The function that stores the values of a point."""
+    arrays = ["rows"] if rows else list(text.outputs)
+    given = ", ".join(f"{name}: Array" for name in arrays)
+    lines = [
+        "@at_point",
+        f"def _store_{kernel.name}(values: Any, i: int, {given}) -> None:",
+        f'{INDENT}"""Stores what `_{kernel.name}` answers for a point."""',
+    ]
+    line = f"{INDENT}{', '.join(places)} = values"
+    if len(line) <= 100:
+        return "\n".join([*lines, line])
+    chunks = [", ".join(places[k : k + 4]) + "," for k in range(0, len(places), 4)]
+    return "\n".join(
+        [*lines, f"{INDENT}(", *(INDENT * 2 + c for c in chunks), f"{INDENT}) = values"]
+    )
+
+
+def _careful(kernel: Kernel, watched: list[str]) -> str:
+    sizes = [f"abs({name} - 1)" if name == "v3" else f"abs({name})" for name in kernel.inputs]
+    kept = ["values", *watched[1:]]
+    return template.CAREFUL.substitute(
+        name=kernel.name,
+        arguments=", ".join(kernel.inputs),
+        result=", ".join(["values", *watched]),
+        largest=f"max({', '.join(sizes)})" if len(sizes) > 1 else sizes[0],
+        kept=", ".join(kept),
+    )
+
+
+def _at_one(kernel: Kernel, text: FunctionText, watched: list[str]) -> str:
+    """The function of one point for other compiled code."""
+    square = scalar.square(kernel, scalar.NUMBA)
+    call = f"{'_careful' if square else ''}_{kernel.name}({', '.join(kernel.inputs)}, c)"
+    quantity = watched[-1] if watched and watched[-1] != square else ""
+    lines = [f"{INDENT}{', '.join(['values', *([quantity] if quantity else [])])} = {call}"]
+    if quantity:
+        assert kernel.limit is not None
+        lines += [
+            f"{INDENT}if not {quantity} < 1:",
+            f'{INDENT * 2}raise ValueError("{kernel.limit.sentence}")',
+        ]
+    lines += _nested(text)
+    if len(lines) == 2 and lines[1] == f"{INDENT}return values":
+        lines = [f"{INDENT}return {call}"]
+    made = ", ".join(f"{name} {head or 'a number'}" for name, head in text.outputs.items())
+    return template.AT.substitute(
+        name=kernel.name,
+        arguments=", ".join(kernel.inputs),
+        doc=f"`{kernel.name}` at one point: {made}; for compiled code.",
+        lines="\n".join(lines),
+    )
+
+
+def _nested(text: FunctionText) -> list[str]:
+    """The return of a tuple for each array, and of a tuple of rows for a matrix."""
+    lines: list[str] = []
+    pieces: list[str] = []
+    first = 0
+    for name, head in text.outputs.items():
+        count = _entries(head)
+        if len(head) == 2:
+            n = head[0]
+            rows = [[first + _row(n, min(j, k), max(j, k)) for k in range(n)] for j in range(n)]
+            texts = [", ".join(f"values[{k}]" for k in row) for row in rows]
+            alone = len(text.outputs) == 1
+            opening = "return (" if alone else f"{name} = ("
+            lines += [INDENT + opening, *(f"{INDENT * 2}({r})," for r in texts), f"{INDENT})"]
+            pieces += [] if alone else [name]
+        else:
+            pieces.append(f"values[{first}:{first + count}]" if head else f"values[{first}]")
+        first += count
+    if first == 1:
+        pieces = ["values"]
+    return [*lines, f"{INDENT}return {', '.join(pieces)}"] if pieces else lines
+
+
+def _row(size: int, j: int, k: int) -> int:
+    """The place of an entry among those on and above the diagonal."""
+    return j * size - j * (j + 1) // 2 + k
+
+
+def _over(
+    kernel: Kernel,
+    text: FunctionText,
+    watched: list[str],
+    scene: Scene,
+    moves: list[str],
+    rows: int,
+) -> str:
+    """The loop over points."""
+    square = scalar.square(kernel, scalar.NUMBA)
+    quantity = watched[-1] if watched and watched[-1] != square else ""
+    point = ", ".join(
+        _at(name, scene, *((k,) if head else ()))
+        for name, head in text.inputs.items()
+        for k in range(head[0] if head else 1)
+    )
+    first = next(iter(text.inputs))
+    call = f"_{kernel.name}({point}, c{', 1.0' if square else ''})"
+    arrays = "i - begin, rows" if rows else f"i, {', '.join(text.outputs)}"
+    stores = [f"_store_{kernel.name}(values, {arrays})"]
+    quick = [f"{', '.join(['values', *watched])} = {call}", *stores]
+    quick += ["fine &= (square > LOW) & (square < HIGH)"] if square else []
+    quick += [f"fine &= {quantity} < 1"] if quantity else []
+    again = []
+    if square:
+        result = ", ".join(["values", *watched[1:]])
+        again += [f"{result} = _careful_{kernel.name}({point}, c)", *stores]
+    elif quantity:
+        again += [f"_, {quantity} = {call}"]
+    if quantity:
+        again += [
+            f"if not {quantity} < 1:",
+            f"{INDENT}first, worst = (np.int64(i), {quantity}) if past == 0 else (first, worst)",
+            f"{INDENT}past += 1",
+        ]
+    careful = template.CAREFULLY.substitute(lines="\n".join(_indented(again, 4))) if again else ""
+    whole = template.OVER.substitute(
+        name=kernel.name,
+        about=template.ABOUT_PAST if quantity else "",
+        given=", ".join(f"{name}: Array" for name in text.inputs),
+        taken=", ".join(f"{name}: Array" for name in text.outputs),
+        points=f"{first}.shape[{-1 if scene.layout == 'first' else 0}]",
+        rows=f"\n{INDENT}rows = np.empty({rows} * BLOCK)" if rows else "",
+        fine="fine = True" if again else "$",
+        quick="\n".join(_indented(quick, 3)),
+        careful=careful,
+        moves="".join(f"{INDENT * 2}{line}\n" for line in moves),
+    )
+    return whole.replace(f"{INDENT * 2}$\n", "")
+
+
+def _indented(lines: list[str], depth: int) -> list[str]:
+    return [
+        broken for line in lines for broken in _fitting(f"{INDENT * depth}{line}", INDENT * depth)
+    ]
+
+
+def _fitting(line: str, indent: str) -> list[str]:
+    """A line, or a call with its arguments on a line of their own."""
+    if len(line) <= 100:
+        return [line]
+    opening, _, rest = line.partition("(")
+    inside, _, closing = rest.rpartition(")")
+    return [f"{opening}(", f"{indent}{INDENT}{inside}", f"{indent}){closing}"]
+
+
+def _public(kernel: Kernel, text: FunctionText, scene: Scene, kernels: tuple[Kernel, ...]) -> str:
+    """The public function of arrays."""
+    default = " = ROD" if all_have_values(scene, kernels) else ""
+    single = len(text.outputs) == 1
+    kind = ("Array", "Pair", "Triple")[len(text.outputs) - 1]
+    names = ", ".join(text.outputs)
+    given = ", ".join(f"{name}: ArrayLike" for name in text.inputs)
+    lines = wrapped(
+        f"def {kernel.name}(",
+        [f"{given}, constants: Constants{default}", f"out: {kind} | None = None"],
+        f") -> {kind}:",
+        ", ",
+        "",
+    )
+    lines += [f'    """{text.doc}', '    """'] if "\n" in text.doc else [f'    """{text.doc}"""']
+    inputs = "{" + ", ".join(f'"{name}": {name}' for name in text.inputs) + "}"
+    results = ", ".join(f'"{name}"' for name in text.outputs) + ("," if single else "")
+    lines += wrapped(
+        f"{f'({names},)' if single else names} = _apply(",
+        [f"_{kernel.name}_over", inputs, "constants", f"({results})", "out"],
+        ")",
+        ", ",
+        INDENT,
+    )
+    return "\n".join([*lines, f"    return {names}"])

@@ -1,0 +1,1 @@
+"""Modules that need numba, one a scene; written by rodproof.codegen."""

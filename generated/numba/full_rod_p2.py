@@ -1,0 +1,1188 @@
+"""The full rod at p = 2: square roots for powers, energies in closed form.
+
+Scene full_rod_p2, made by: rodproof generate full_rod_p2 --target numba
+
+Fixed: p = 2.
+
+Statements it rests on (paper label, verdict; as corrected if refuted): qstar-form Section 3.1
+refuted; const-u-mu eq:uconst proved; const-u-3 eq:u3const proved; const-v-mu eq:vconst proved;
+const-v-3 eq:v3const proved; q-form eq:quadraticform definition; strain-limit eq:strainlimiting
+proved; const-m-mu eq:mconst proved; const-m-3 eq:m3const proved; const-n-mu eq:nconst proved;
+const-n-3 eq:n3const proved; w-definition eq:stenergy proved; wstar-definition eq:compenergy
+proved; hess-m-u reading; hess-m-u3 reading; hess-m-v reading; hess-m-v3 reading; hess-m3-u3
+refuted; hess-m3-v reading; hess-m3-v3 refuted; hess-n-v reading; hess-n-v3 reading; hess-n3-v3
+reading; wstar-gradient Section 3.1 proved.
+
+Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
+
+Operations a point: arithmetic, transcendental, energy shares, temporaries
+    strains                48    0    0   17
+    loads                  39    0    0   17
+    stored_energy          30    0    0   12
+    complementary_energy   37    0    0   12
+    stiffness             107    0    0   27
+    loads_and_stiffness   117    0    0   31
+    compliance            159    0    0   39
+    strains_and_gap        52    0    0   18
+    stiffness_at_loads    107    0    0   23
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from math import frexp, ldexp, sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import ArrayLike
+
+Array = np.ndarray[Any, np.dtype[Any]]
+Pair = tuple[Array, Array]
+Triple = tuple[Array, Array, Array]
+Inputs = dict[str, ArrayLike]
+
+BLOCK = 256  # points that are done again with care if one of them needs it
+LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+LEAST = 2.0**-1022  # the smallest normal number
+LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
+DOUBLE = np.dtype(np.float64)
+LN2, LN2_REST = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # log 2, in two parts
+PER_LN2 = 1 / math.log(2)
+SQRT_HALF = 0x3FE6A09E667F3BCD  # the bits of 2^(-1/2)
+HEADS: dict[str, tuple[int, ...]] = {
+    "m": (3,),
+    "n": (3,),
+    "u": (3,),
+    "v": (3,),
+    "w": (),
+    "w_star": (),
+    "stiff": (6, 6),
+    "soft": (6, 6),
+    "limit_gap": (),
+}
+
+over_points = njit(cache=True, error_model="numpy", fastmath={"contract"})
+at_point = njit(cache=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
+
+
+class Values(NamedTuple):
+    """The constants as compiled code takes them; `Constants.values` makes them."""
+
+    alpha: float
+    beta: float
+    zeta: float
+    eta: float
+    iota: float
+    gamma: float
+    chirality: float
+    gap: float
+    n3_dilates: float
+    m3_contracts: float
+    per_alpha: float
+    per_beta: float
+    per_zeta: float
+    per_eta: float
+    per_gap: float
+
+
+@dataclass(frozen=True)
+class Constants:
+    """The six constants of the rod, checked on construction (ValueError).
+
+    alpha, beta and iota are lengths, gamma is a force, zeta and eta are plain numbers; all but iota
+    are positive and beta^2 eta^2 - iota^2 > 0.
+    """
+
+    alpha: float
+    beta: float
+    zeta: float
+    eta: float
+    iota: float
+    gamma: float
+    chirality: float = field(init=False, repr=False, compare=False)
+    gap: float = field(init=False, repr=False, compare=False)
+    n3_dilates: float = field(init=False, repr=False, compare=False)
+    m3_contracts: float = field(init=False, repr=False, compare=False)
+    per_alpha: float = field(init=False, repr=False, compare=False)
+    per_beta: float = field(init=False, repr=False, compare=False)
+    per_zeta: float = field(init=False, repr=False, compare=False)
+    per_eta: float = field(init=False, repr=False, compare=False)
+    per_gap: float = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        for name in ("alpha", "beta", "zeta", "eta", "iota", "gamma"):
+            value = float(getattr(self, name))
+            if not math.isfinite(value) or (value <= 0 and name != "iota"):
+                rule = "a finite number" if name == "iota" else "positive and finite"
+                raise ValueError(f"Constants: {name} must be {rule}, not {value}")
+            object.__setattr__(self, name, value)
+        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota))
+        alpha, beta, zeta, eta, iota = exact
+        if not beta**2 * eta**2 - iota**2 > 0:
+            raise ValueError(
+                "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
+                f" not beta={self.beta}, eta={self.eta}, iota={self.iota}"
+            )
+        derived = {
+            "chirality": iota / beta / eta,
+            "gap": (beta**2 * eta**2 - iota**2) / beta**2 / eta**2,
+            "n3_dilates": beta**2 * eta / (beta**2 * eta**2 - iota**2),
+            "m3_contracts": eta * iota / (beta**2 * eta**2 - iota**2),
+            "per_alpha": 1 / alpha,
+            "per_beta": 1 / beta,
+            "per_zeta": 1 / zeta,
+            "per_eta": 1 / eta,
+            "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
+        }
+        for name, ratio in derived.items():  # exact, then rounded once
+            if abs(ratio) >= 2**1023:
+                raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
+            object.__setattr__(self, name, float(ratio))
+
+    @cached_property
+    def values(self) -> Values:
+        """What compiled code takes."""
+        return Values(
+            self.alpha,
+            self.beta,
+            self.zeta,
+            self.eta,
+            self.iota,
+            self.gamma,
+            self.chirality,
+            self.gap,
+            self.n3_dilates,
+            self.m3_contracts,
+            self.per_alpha,
+            self.per_beta,
+            self.per_zeta,
+            self.per_eta,
+            self.per_gap,
+        )
+
+
+@at_point
+def _scale(largest: float, shift: int) -> float:
+    """A power of two that takes the largest input near one, and its logarithm by ``shift``."""
+    return ldexp(1.0, min(max(shift - frexp(largest)[1], -1020), 1020))
+
+
+@at_point
+def _spread_6_6(rows: Array, begin: int, end: int, a: Array) -> None:
+    """Copies the first rows, entries on and above the diagonal, to their places in a matrix."""
+    first = 0
+    for j in range(6):
+        for k in range(j, 6):
+            for i in range(end - begin):
+                a[j, k, begin + i] = rows[first + i]
+                a[k, j, begin + i] = rows[first + i]
+            first += BLOCK
+
+
+@at_point
+def _move_3(rows: Array, first: int, begin: int, end: int, a: Array) -> None:
+    """Copies rows from the first on."""
+    for k in range(3):
+        for i in range(end - begin):
+            a[k, begin + i] = rows[(first + k) * BLOCK + i]
+
+
+@at_point
+def _strains(
+    m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, scale: float
+) -> Any:
+    """(u, v - e3) = (gamma^2 + Q*)^(-1/2) K^-1 (m, n)."""
+    m1, m2, m3 = scale * m1, scale * m2, scale * m3
+    n1, n2, n3 = scale * n1, scale * n2, scale * n3
+    mu_1, mu_2, mu_3, nu_1 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3, c.per_zeta * n1
+    nu_2 = c.per_zeta * n2
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    square = (
+        c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    size = sqrt(square)
+    y = size / scale
+    larger = y if y > c.gamma else c.gamma
+    ratio = (y if y < c.gamma else c.gamma) / larger
+    power = ratio * ratio
+    factor = 1 / larger / sqrt(power + 1)
+    reach = factor / scale
+    bend, turn, shear = c.per_alpha * reach, c.per_beta * reach, c.per_zeta * reach
+    extend = c.per_eta * reach
+    return (
+        (
+            bend * mu_1, bend * mu_2, turn * twist, nu_1 * shear, nu_2 * shear,
+            dilatation * extend + 1,
+        ),
+        square,
+    )
+
+
+@over_points
+def _careful_strains(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
+    """`strains` where squares may leave their range, its inputs scaled."""
+    values, square = _strains(m1, m2, m3, n1, n2, n3, c, 1.0)
+    if not LOW < square < HIGH:
+        largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+        for shift in (0, 480, -480):
+            values, square = _strains(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
+            if LOW < square < HIGH:
+                break
+    return values
+
+
+@over_points
+def strains_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
+    """`strains` at one point: u (3,), v (3,); for compiled code."""
+    values = _careful_strains(m1, m2, m3, n1, n2, n3, c)
+    return values[0:3], values[3:6]
+
+
+@at_point
+def _store_strains(values: Any, i: int, u: Array, v: Array) -> None:
+    """Stores what `_strains` answers for a point."""
+    u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i] = values
+
+
+@over_points
+def _strains_over(m: Array, n: Array, c: Values, u: Array, v: Array) -> tuple[int, Any, float]:
+    """`strains` at every point."""
+    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
+    for start in range(0, points, BLOCK):
+        begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            values, square = _strains(m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c, 1.0)
+            _store_strains(values, i, u, v)
+            fine &= (square > LOW) & (square < HIGH)
+        if not fine:
+            for i in range(begin, end):
+                values = _careful_strains(m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c)
+                _store_strains(values, i, u, v)
+    return past, first, worst
+
+
+@at_point
+def _loads(u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values) -> Any:
+    """(m, n) = gamma (1 - Q)^(-1/2) K (u, v - e3)."""
+    stretch = v3 - 1
+    kappa_1, kappa_2, kappa_3, lam_1 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.zeta * v1
+    lam_2, lam_3 = c.zeta * v2, c.eta * stretch
+    torque = c.chirality * lam_3 + kappa_3
+    tension = c.chirality * torque + c.gap * lam_3
+    q = (
+        c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
+        + lam_2 * lam_2 + torque * torque
+    )
+    left = 1 - q
+    root = sqrt(left)
+    factor = c.gamma / root
+    bend, turn, shear, extend = c.alpha * factor, c.beta * factor, c.zeta * factor, c.eta * factor
+    return (
+        (
+            bend * kappa_1, bend * kappa_2, torque * turn, lam_1 * shear, lam_2 * shear,
+            extend * tension,
+        ),
+        q,
+    )
+
+
+@over_points
+def loads_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
+    """`loads` at one point: m (3,), n (3,); for compiled code."""
+    values, q = _loads(u1, u2, u3, v1, v2, v3, c)
+    if not q < 1:
+        raise ValueError("strains must satisfy Q(u, v) < 1")
+    return values[0:3], values[3:6]
+
+
+@at_point
+def _store_loads(values: Any, i: int, m: Array, n: Array) -> None:
+    """Stores what `_loads` answers for a point."""
+    m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i] = values
+
+
+@over_points
+def _loads_over(u: Array, v: Array, c: Values, m: Array, n: Array) -> tuple[int, Any, float]:
+    """`loads` at every point; points past the limit, the first, its Q."""
+    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
+    for start in range(0, points, BLOCK):
+        begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            values, q = _loads(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
+            _store_loads(values, i, m, n)
+            fine &= q < 1
+        if not fine:
+            for i in range(begin, end):
+                _, q = _loads(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
+                if not q < 1:
+                    first, worst = (np.int64(i), q) if past == 0 else (first, worst)
+                    past += 1
+    return past, first, worst
+
+
+@at_point
+def _stored_energy(
+    u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values, scale: float
+) -> Any:
+    """W = gamma (1 - (1 - Q)^(1/2)), as gamma Q/(1 + (1 - Q)^(1/2))."""
+    stretch = v3 - 1
+    u1, u2, u3 = scale * u1, scale * u2, scale * u3
+    v1, v2, stretch = scale * v1, scale * v2, scale * stretch
+    kappa_1, kappa_2, kappa_3, lam_1 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.zeta * v1
+    lam_2, lam_3 = c.zeta * v2, c.eta * stretch
+    torque = c.chirality * lam_3 + kappa_3
+    square = (
+        c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
+        + lam_2 * lam_2 + torque * torque
+    )
+    size = sqrt(square)
+    x = size / scale
+    q = x * x
+    left = 1 - q
+    root = sqrt(left)
+    linear = c.gamma * x
+    return linear * x / (root + 1), square, q
+
+
+@over_points
+def _careful_stored_energy(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
+    """`stored_energy` where squares may leave their range, its inputs scaled."""
+    values, square, q = _stored_energy(u1, u2, u3, v1, v2, v3, c, 1.0)
+    if not LOW < square < HIGH:
+        largest = max(abs(u1), abs(u2), abs(u3), abs(v1), abs(v2), abs(v3 - 1))
+        for shift in (0, 480, -480):
+            values, square, q = _stored_energy(u1, u2, u3, v1, v2, v3, c, _scale(largest, shift))
+            if LOW < square < HIGH:
+                break
+    return values, q
+
+
+@over_points
+def stored_energy_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
+    """`stored_energy` at one point: w a number; for compiled code."""
+    values, q = _careful_stored_energy(u1, u2, u3, v1, v2, v3, c)
+    if not q < 1:
+        raise ValueError("strains must satisfy Q(u, v) < 1")
+    return values
+
+
+@at_point
+def _store_stored_energy(values: Any, i: int, w: Array) -> None:
+    """Stores what `_stored_energy` answers for a point."""
+    w[i] = values
+
+
+@over_points
+def _stored_energy_over(u: Array, v: Array, c: Values, w: Array) -> tuple[int, Any, float]:
+    """`stored_energy` at every point; points past the limit, the first, its Q."""
+    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
+    for start in range(0, points, BLOCK):
+        begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            values, square, q = _stored_energy(
+                u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c, 1.0
+            )
+            _store_stored_energy(values, i, w)
+            fine &= (square > LOW) & (square < HIGH)
+            fine &= q < 1
+        if not fine:
+            for i in range(begin, end):
+                values, q = _careful_stored_energy(
+                    u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c
+                )
+                _store_stored_energy(values, i, w)
+                if not q < 1:
+                    first, worst = (np.int64(i), q) if past == 0 else (first, worst)
+                    past += 1
+    return past, first, worst
+
+
+@at_point
+def _complementary_energy(
+    m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, scale: float
+) -> Any:
+    """W* = (gamma^2 + Q*)^(1/2) - gamma, as load times strain over 1 + gamma factor."""
+    m1, m2, m3 = scale * m1, scale * m2, scale * m3
+    n1, n2, n3 = scale * n1, scale * n2, scale * n3
+    mu_1, mu_2, mu_3, nu_1 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3, c.per_zeta * n1
+    nu_2 = c.per_zeta * n2
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    square = (
+        c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    size = sqrt(square)
+    y = size / scale
+    larger = y if y > c.gamma else c.gamma
+    ratio = (y if y < c.gamma else c.gamma) / larger
+    power = ratio * ratio
+    factor = 1 / larger / sqrt(power + 1)
+    strain = factor * y
+    return strain * y / (c.gamma * factor + 1), square
+
+
+@over_points
+def _careful_complementary_energy(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
+    """`complementary_energy` where squares may leave their range, its inputs scaled."""
+    values, square = _complementary_energy(m1, m2, m3, n1, n2, n3, c, 1.0)
+    if not LOW < square < HIGH:
+        largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+        for shift in (0, 480, -480):
+            values, square = _complementary_energy(
+                m1, m2, m3, n1, n2, n3, c, _scale(largest, shift)
+            )
+            if LOW < square < HIGH:
+                break
+    return values
+
+
+@over_points
+def complementary_energy_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
+    """`complementary_energy` at one point: w_star a number; for compiled code."""
+    return _careful_complementary_energy(m1, m2, m3, n1, n2, n3, c)
+
+
+@at_point
+def _store_complementary_energy(values: Any, i: int, w_star: Array) -> None:
+    """Stores what `_complementary_energy` answers for a point."""
+    w_star[i] = values
+
+
+@over_points
+def _complementary_energy_over(
+    m: Array, n: Array, c: Values, w_star: Array
+) -> tuple[int, Any, float]:
+    """`complementary_energy` at every point."""
+    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
+    for start in range(0, points, BLOCK):
+        begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            values, square = _complementary_energy(
+                m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c, 1.0
+            )
+            _store_complementary_energy(values, i, w_star)
+            fine &= (square > LOW) & (square < HIGH)
+        if not fine:
+            for i in range(begin, end):
+                values = _careful_complementary_energy(
+                    m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c
+                )
+                _store_complementary_energy(values, i, w_star)
+    return past, first, worst
+
+
+@at_point
+def _stiffness(u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values) -> Any:
+    """D^2 W = factor (K + growth t t^T), t = K (u, v - e3)/x."""
+    stretch = v3 - 1
+    kappa_1, kappa_2, kappa_3, lam_1 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.zeta * v1
+    lam_2, lam_3 = c.zeta * v2, c.eta * stretch
+    torque = c.chirality * lam_3 + kappa_3
+    tension = c.chirality * torque + c.gap * lam_3
+    q = (
+        c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
+        + lam_2 * lam_2 + torque * torque
+    )
+    left = 1 - q
+    root = sqrt(left)
+    factor, growth = c.gamma / root, q / left
+    steep = factor * growth
+    x = sqrt(q if q > LEAST else LEAST)
+    per_x = 1 / x
+    bend_per_x, turn_per_x, shear_per_x = c.alpha * per_x, c.beta * per_x, c.zeta * per_x
+    extend_per_x, t1, t2 = c.eta * per_x, bend_per_x * kappa_1, bend_per_x * kappa_2
+    t3, t4, t5 = torque * turn_per_x, lam_1 * shear_per_x, lam_2 * shear_per_x
+    t6, steep_1, steep_2, steep_3 = extend_per_x * tension, steep * t1, steep * t2, steep * t3
+    steep_4, steep_5, steep_6 = steep * t4, steep * t5, steep * t6
+    k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
+    k14, k15, k16 = steep_1 * t4, steep_1 * t5, steep_1 * t6
+    k22, k23, k24 = c.alpha * c.alpha * factor + steep_2 * t2, steep_2 * t3, steep_2 * t4
+    k25, k26 = steep_2 * t5, steep_2 * t6
+    k33, k34, k35 = c.beta * c.beta * factor + steep_3 * t3, steep_3 * t4, steep_3 * t5
+    k36 = c.iota * factor + steep_3 * t6
+    k44, k45, k46 = c.zeta * c.zeta * factor + steep_4 * t4, steep_4 * t5, steep_4 * t6
+    k55, k56 = c.zeta * c.zeta * factor + steep_5 * t5, steep_5 * t6
+    k66 = c.eta * c.eta * factor + steep_6 * t6
+    return (
+        (
+            k11, k12, k13, k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35, k36, k44, k45,
+            k46, k55, k56, k66,
+        ),
+        q,
+    )
+
+
+@over_points
+def stiffness_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
+    """`stiffness` at one point: stiff (6, 6); for compiled code."""
+    values, q = _stiffness(u1, u2, u3, v1, v2, v3, c)
+    if not q < 1:
+        raise ValueError("strains must satisfy Q(u, v) < 1")
+    return (
+        (values[0], values[1], values[2], values[3], values[4], values[5]),
+        (values[1], values[6], values[7], values[8], values[9], values[10]),
+        (values[2], values[7], values[11], values[12], values[13], values[14]),
+        (values[3], values[8], values[12], values[15], values[16], values[17]),
+        (values[4], values[9], values[13], values[16], values[18], values[19]),
+        (values[5], values[10], values[14], values[17], values[19], values[20]),
+    )
+
+
+@at_point
+def _store_stiffness(values: Any, i: int, rows: Array) -> None:
+    """Stores what `_stiffness` answers for a point."""
+    (
+        rows[0 * BLOCK + i], rows[1 * BLOCK + i], rows[2 * BLOCK + i], rows[3 * BLOCK + i],
+        rows[4 * BLOCK + i], rows[5 * BLOCK + i], rows[6 * BLOCK + i], rows[7 * BLOCK + i],
+        rows[8 * BLOCK + i], rows[9 * BLOCK + i], rows[10 * BLOCK + i], rows[11 * BLOCK + i],
+        rows[12 * BLOCK + i], rows[13 * BLOCK + i], rows[14 * BLOCK + i], rows[15 * BLOCK + i],
+        rows[16 * BLOCK + i], rows[17 * BLOCK + i], rows[18 * BLOCK + i], rows[19 * BLOCK + i],
+        rows[20 * BLOCK + i],
+    ) = values
+
+
+@over_points
+def _stiffness_over(u: Array, v: Array, c: Values, stiff: Array) -> tuple[int, Any, float]:
+    """`stiffness` at every point; points past the limit, the first, its Q."""
+    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
+    rows = np.empty(21 * BLOCK)
+    for start in range(0, points, BLOCK):
+        begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            values, q = _stiffness(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
+            _store_stiffness(values, i - begin, rows)
+            fine &= q < 1
+        if not fine:
+            for i in range(begin, end):
+                _, q = _stiffness(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
+                if not q < 1:
+                    first, worst = (np.int64(i), q) if past == 0 else (first, worst)
+                    past += 1
+        _spread_6_6(rows, begin, end, stiff)
+    return past, first, worst
+
+
+@at_point
+def _loads_and_stiffness(
+    u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values
+) -> Any:
+    """(m, n) = factor K (u, v - e3) and D^2 W = factor (K + growth t t^T), as apart."""
+    stretch = v3 - 1
+    kappa_1, kappa_2, kappa_3, lam_1 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.zeta * v1
+    lam_2, lam_3 = c.zeta * v2, c.eta * stretch
+    torque = c.chirality * lam_3 + kappa_3
+    tension = c.chirality * torque + c.gap * lam_3
+    q = (
+        c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
+        + lam_2 * lam_2 + torque * torque
+    )
+    left = 1 - q
+    root = sqrt(left)
+    factor, growth = c.gamma / root, q / left
+    steep, bend, turn, shear = factor * growth, c.alpha * factor, c.beta * factor, c.zeta * factor
+    extend = c.eta * factor
+    x = sqrt(q if q > LEAST else LEAST)
+    per_x = 1 / x
+    bend_per_x, turn_per_x, shear_per_x = c.alpha * per_x, c.beta * per_x, c.zeta * per_x
+    extend_per_x, t1, t2 = c.eta * per_x, bend_per_x * kappa_1, bend_per_x * kappa_2
+    t3, t4, t5 = torque * turn_per_x, lam_1 * shear_per_x, lam_2 * shear_per_x
+    t6, steep_1, steep_2, steep_3 = extend_per_x * tension, steep * t1, steep * t2, steep * t3
+    steep_4, steep_5, steep_6 = steep * t4, steep * t5, steep * t6
+    k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
+    k14, k15, k16 = steep_1 * t4, steep_1 * t5, steep_1 * t6
+    k22, k23, k24 = c.alpha * c.alpha * factor + steep_2 * t2, steep_2 * t3, steep_2 * t4
+    k25, k26 = steep_2 * t5, steep_2 * t6
+    k33, k34, k35 = c.beta * c.beta * factor + steep_3 * t3, steep_3 * t4, steep_3 * t5
+    k36 = c.iota * factor + steep_3 * t6
+    k44, k45, k46 = c.zeta * c.zeta * factor + steep_4 * t4, steep_4 * t5, steep_4 * t6
+    k55, k56 = c.zeta * c.zeta * factor + steep_5 * t5, steep_5 * t6
+    k66 = c.eta * c.eta * factor + steep_6 * t6
+    return (
+        (
+            bend * kappa_1, bend * kappa_2, torque * turn, lam_1 * shear, lam_2 * shear,
+            extend * tension, k11, k12, k13, k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35,
+            k36, k44, k45, k46, k55, k56, k66,
+        ),
+        q,
+    )
+
+
+@over_points
+def loads_and_stiffness_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
+    """`loads_and_stiffness` at one point: m (3,), n (3,), stiff (6, 6); for compiled code."""
+    values, q = _loads_and_stiffness(u1, u2, u3, v1, v2, v3, c)
+    if not q < 1:
+        raise ValueError("strains must satisfy Q(u, v) < 1")
+    stiff = (
+        (values[6], values[7], values[8], values[9], values[10], values[11]),
+        (values[7], values[12], values[13], values[14], values[15], values[16]),
+        (values[8], values[13], values[17], values[18], values[19], values[20]),
+        (values[9], values[14], values[18], values[21], values[22], values[23]),
+        (values[10], values[15], values[19], values[22], values[24], values[25]),
+        (values[11], values[16], values[20], values[23], values[25], values[26]),
+    )
+    return values[0:3], values[3:6], stiff
+
+
+@at_point
+def _store_loads_and_stiffness(values: Any, i: int, rows: Array) -> None:
+    """Stores what `_loads_and_stiffness` answers for a point."""
+    (
+        rows[21 * BLOCK + i], rows[22 * BLOCK + i], rows[23 * BLOCK + i], rows[24 * BLOCK + i],
+        rows[25 * BLOCK + i], rows[26 * BLOCK + i], rows[0 * BLOCK + i], rows[1 * BLOCK + i],
+        rows[2 * BLOCK + i], rows[3 * BLOCK + i], rows[4 * BLOCK + i], rows[5 * BLOCK + i],
+        rows[6 * BLOCK + i], rows[7 * BLOCK + i], rows[8 * BLOCK + i], rows[9 * BLOCK + i],
+        rows[10 * BLOCK + i], rows[11 * BLOCK + i], rows[12 * BLOCK + i], rows[13 * BLOCK + i],
+        rows[14 * BLOCK + i], rows[15 * BLOCK + i], rows[16 * BLOCK + i], rows[17 * BLOCK + i],
+        rows[18 * BLOCK + i], rows[19 * BLOCK + i], rows[20 * BLOCK + i],
+    ) = values
+
+
+@over_points
+def _loads_and_stiffness_over(
+    u: Array, v: Array, c: Values, m: Array, n: Array, stiff: Array
+) -> tuple[int, Any, float]:
+    """`loads_and_stiffness` at every point; points past the limit, the first, its Q."""
+    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
+    rows = np.empty(27 * BLOCK)
+    for start in range(0, points, BLOCK):
+        begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            values, q = _loads_and_stiffness(
+                u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c
+            )
+            _store_loads_and_stiffness(values, i - begin, rows)
+            fine &= q < 1
+        if not fine:
+            for i in range(begin, end):
+                _, q = _loads_and_stiffness(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
+                if not q < 1:
+                    first, worst = (np.int64(i), q) if past == 0 else (first, worst)
+                    past += 1
+        _move_3(rows, 21, begin, end, m)
+        _move_3(rows, 24, begin, end, n)
+        _spread_6_6(rows, begin, end, stiff)
+    return past, first, worst
+
+
+@at_point
+def _compliance(
+    m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, scale: float
+) -> Any:
+    """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y.
+
+    With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
+    the entries that would cancel are sums of squares.
+    """
+    m1, m2, m3 = scale * m1, scale * m2, scale * m3
+    n1, n2, n3 = scale * n1, scale * n2, scale * n3
+    mu_1, mu_2, mu_3, nu_1 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3, c.per_zeta * n1
+    nu_2, nu_3 = c.per_zeta * n2, c.per_eta * n3
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    square = (
+        c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    size = sqrt(square)
+    y = size / scale
+    larger = y if y > c.gamma else c.gamma
+    ratio = (y if y < c.gamma else c.gamma) / larger
+    power = ratio * ratio
+    factor, remain = 1 / larger / sqrt(power + 1), (1.0 if y <= c.gamma else power) / (power + 1)
+    per_size = 1 / (size if size > LEAST else LEAST)
+    a1, share = per_size * (mu_1 + LEAST), (power if y <= c.gamma else 1.0) / (power + 1)
+    aa1 = a1 * a1
+    a2, a3, b1, b2 = mu_2 * per_size, mu_3 * per_size, nu_1 * per_size, nu_2 * per_size
+    aa2, aa3, bb1, bb2 = a2 * a2, a3 * a3, b1 * b1, b2 * b2
+    b3, c3, c6, d1 = nu_3 * per_size, per_size * twist, dilatation * per_size, c.per_alpha * a1
+    cc6 = c6 * c6
+    across = aa1 + aa2 + bb1 + bb2
+    coupled = aa3 + c.gap * cc6
+    steep = -factor * share
+    d2, d3, d4, d5 = c.per_alpha * a2, c.per_beta * c3, c.per_zeta * b1, c.per_zeta * b2
+    d6, steep_1, steep_2, steep_3 = c.per_eta * c6, d1 * steep, d2 * steep, d3 * steep
+    steep_4, steep_5 = d4 * steep, d5 * steep
+    s11 = c.per_alpha * c.per_alpha * factor * (aa1 * remain + aa2 + bb1 + bb2 + coupled)
+    s12, s13, s14, s15, s16 = d2 * steep_1, d3 * steep_1, d4 * steep_1, d5 * steep_1, d6 * steep_1
+    s22 = c.per_alpha * c.per_alpha * factor * (aa1 + aa2 * remain + bb1 + bb2 + coupled)
+    s23, s24, s25, s26 = d3 * steep_2, d4 * steep_2, d5 * steep_2, d6 * steep_2
+    s33 = c.per_beta * c.per_beta * factor * (c3 * c3 * remain + c.per_gap * (across + b3 * b3))
+    s34, s35 = d4 * steep_3, d5 * steep_3
+    s36 = (
+        c.per_beta * c.per_eta * factor * (c3 * c6 * remain - c.per_gap * (a3 * b3
+        + c.chirality * across))
+    )
+    s44 = c.per_zeta * c.per_zeta * factor * (aa1 + aa2 + bb1 * remain + bb2 + coupled)
+    s45, s46 = d5 * steep_4, d6 * steep_4
+    s55 = c.per_zeta * c.per_zeta * factor * (aa1 + aa2 + bb1 + bb2 * remain + coupled)
+    s56 = d6 * steep_5
+    s66 = c.per_eta * c.per_eta * factor * (cc6 * remain + c.per_gap * (aa3 + across))
+    return (
+        (
+            s11, s12, s13, s14, s15, s16, s22, s23, s24, s25, s26, s33, s34, s35, s36, s44, s45,
+            s46, s55, s56, s66,
+        ),
+        square,
+    )
+
+
+@over_points
+def _careful_compliance(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
+    """`compliance` where squares may leave their range, its inputs scaled."""
+    values, square = _compliance(m1, m2, m3, n1, n2, n3, c, 1.0)
+    if not LOW < square < HIGH:
+        largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+        for shift in (0, 480, -480):
+            values, square = _compliance(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
+            if LOW < square < HIGH:
+                break
+    return values
+
+
+@over_points
+def compliance_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
+    """`compliance` at one point: soft (6, 6); for compiled code."""
+    values = _careful_compliance(m1, m2, m3, n1, n2, n3, c)
+    return (
+        (values[0], values[1], values[2], values[3], values[4], values[5]),
+        (values[1], values[6], values[7], values[8], values[9], values[10]),
+        (values[2], values[7], values[11], values[12], values[13], values[14]),
+        (values[3], values[8], values[12], values[15], values[16], values[17]),
+        (values[4], values[9], values[13], values[16], values[18], values[19]),
+        (values[5], values[10], values[14], values[17], values[19], values[20]),
+    )
+
+
+@at_point
+def _store_compliance(values: Any, i: int, rows: Array) -> None:
+    """Stores what `_compliance` answers for a point."""
+    (
+        rows[0 * BLOCK + i], rows[1 * BLOCK + i], rows[2 * BLOCK + i], rows[3 * BLOCK + i],
+        rows[4 * BLOCK + i], rows[5 * BLOCK + i], rows[6 * BLOCK + i], rows[7 * BLOCK + i],
+        rows[8 * BLOCK + i], rows[9 * BLOCK + i], rows[10 * BLOCK + i], rows[11 * BLOCK + i],
+        rows[12 * BLOCK + i], rows[13 * BLOCK + i], rows[14 * BLOCK + i], rows[15 * BLOCK + i],
+        rows[16 * BLOCK + i], rows[17 * BLOCK + i], rows[18 * BLOCK + i], rows[19 * BLOCK + i],
+        rows[20 * BLOCK + i],
+    ) = values
+
+
+@over_points
+def _compliance_over(m: Array, n: Array, c: Values, soft: Array) -> tuple[int, Any, float]:
+    """`compliance` at every point."""
+    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
+    rows = np.empty(21 * BLOCK)
+    for start in range(0, points, BLOCK):
+        begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            values, square = _compliance(
+                m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c, 1.0
+            )
+            _store_compliance(values, i - begin, rows)
+            fine &= (square > LOW) & (square < HIGH)
+        if not fine:
+            for i in range(begin, end):
+                values = _careful_compliance(
+                    m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c
+                )
+                _store_compliance(values, i - begin, rows)
+        _spread_6_6(rows, begin, end, soft)
+    return past, first, worst
+
+
+@at_point
+def _strains_and_gap(
+    m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, scale: float
+) -> Any:
+    """The strains, and 1 - Q = gamma^2/(gamma^2 + Q*)."""
+    m1, m2, m3 = scale * m1, scale * m2, scale * m3
+    n1, n2, n3 = scale * n1, scale * n2, scale * n3
+    mu_1, mu_2, mu_3, nu_1 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3, c.per_zeta * n1
+    nu_2 = c.per_zeta * n2
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    square = (
+        c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    size = sqrt(square)
+    y = size / scale
+    larger = y if y > c.gamma else c.gamma
+    ratio = (y if y < c.gamma else c.gamma) / larger
+    power = ratio * ratio
+    factor, remain = 1 / larger / sqrt(power + 1), (1.0 if y <= c.gamma else power) / (power + 1)
+    reach = factor / scale
+    bend, turn, shear = c.per_alpha * reach, c.per_beta * reach, c.per_zeta * reach
+    extend = c.per_eta * reach
+    return (
+        (
+            bend * mu_1, bend * mu_2, turn * twist, nu_1 * shear, nu_2 * shear,
+            dilatation * extend + 1, remain,
+        ),
+        square,
+    )
+
+
+@over_points
+def _careful_strains_and_gap(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
+    """`strains_and_gap` where squares may leave their range, its inputs scaled."""
+    values, square = _strains_and_gap(m1, m2, m3, n1, n2, n3, c, 1.0)
+    if not LOW < square < HIGH:
+        largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+        for shift in (0, 480, -480):
+            values, square = _strains_and_gap(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
+            if LOW < square < HIGH:
+                break
+    return values
+
+
+@over_points
+def strains_and_gap_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
+    """`strains_and_gap` at one point: u (3,), v (3,), limit_gap a number; for compiled code."""
+    values = _careful_strains_and_gap(m1, m2, m3, n1, n2, n3, c)
+    return values[0:3], values[3:6], values[6]
+
+
+@at_point
+def _store_strains_and_gap(values: Any, i: int, u: Array, v: Array, limit_gap: Array) -> None:
+    """Stores what `_strains_and_gap` answers for a point."""
+    u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], limit_gap[i] = values
+
+
+@over_points
+def _strains_and_gap_over(
+    m: Array, n: Array, c: Values, u: Array, v: Array, limit_gap: Array
+) -> tuple[int, Any, float]:
+    """`strains_and_gap` at every point."""
+    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
+    for start in range(0, points, BLOCK):
+        begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            values, square = _strains_and_gap(
+                m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c, 1.0
+            )
+            _store_strains_and_gap(values, i, u, v, limit_gap)
+            fine &= (square > LOW) & (square < HIGH)
+        if not fine:
+            for i in range(begin, end):
+                values = _careful_strains_and_gap(
+                    m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c
+                )
+                _store_strains_and_gap(values, i, u, v, limit_gap)
+    return past, first, worst
+
+
+@at_point
+def _stiffness_at_loads(
+    m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, scale: float
+) -> Any:
+    """D^2 W = factor (K + h h^T), h = y/gamma (m, n)/y, y^2 = Q*."""
+    m1, m2, m3 = scale * m1, scale * m2, scale * m3
+    n1, n2, n3 = scale * n1, scale * n2, scale * n3
+    mu_1, mu_2, mu_3, nu_1 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3, c.per_zeta * n1
+    nu_2, nu_3 = c.per_zeta * n2, c.per_eta * n3
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    square = (
+        c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    size = sqrt(square)
+    y = size / scale
+    rise = y / c.gamma
+    raw_1 = 1 / (rise if rise > LEAST else LEAST)
+    half = raw_1 if raw_1 < rise else rise
+    power = half * half
+    factor = sqrt(power + 1) * (y if y > c.gamma else c.gamma)
+    rise_per_size = rise / (size if size > LEAST else LEAST)
+    bend_rise, turn_rise = c.alpha * rise_per_size, c.beta * rise_per_size
+    shear_rise, extend_rise, h1 = c.zeta * rise_per_size, c.eta * rise_per_size, bend_rise * mu_1
+    h2, h3, h4, h5 = bend_rise * mu_2, mu_3 * turn_rise, nu_1 * shear_rise, nu_2 * shear_rise
+    h6, factor_1, factor_2, factor_3 = extend_rise * nu_3, factor * h1, factor * h2, factor * h3
+    factor_4, factor_5, factor_6 = factor * h4, factor * h5, factor * h6
+    k11, k12, k13 = c.alpha * c.alpha * factor + factor_1 * h1, factor_1 * h2, factor_1 * h3
+    k14, k15, k16 = factor_1 * h4, factor_1 * h5, factor_1 * h6
+    k22, k23, k24 = c.alpha * c.alpha * factor + factor_2 * h2, factor_2 * h3, factor_2 * h4
+    k25, k26 = factor_2 * h5, factor_2 * h6
+    k33, k34, k35 = c.beta * c.beta * factor + factor_3 * h3, factor_3 * h4, factor_3 * h5
+    k36 = c.iota * factor + factor_3 * h6
+    k44, k45, k46 = c.zeta * c.zeta * factor + factor_4 * h4, factor_4 * h5, factor_4 * h6
+    k55, k56 = c.zeta * c.zeta * factor + factor_5 * h5, factor_5 * h6
+    k66 = c.eta * c.eta * factor + factor_6 * h6
+    return (
+        (
+            k11, k12, k13, k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35, k36, k44, k45,
+            k46, k55, k56, k66,
+        ),
+        square,
+    )
+
+
+@over_points
+def _careful_stiffness_at_loads(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
+    """`stiffness_at_loads` where squares may leave their range, its inputs scaled."""
+    values, square = _stiffness_at_loads(m1, m2, m3, n1, n2, n3, c, 1.0)
+    if not LOW < square < HIGH:
+        largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+        for shift in (0, 480, -480):
+            values, square = _stiffness_at_loads(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
+            if LOW < square < HIGH:
+                break
+    return values
+
+
+@over_points
+def stiffness_at_loads_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
+    """`stiffness_at_loads` at one point: stiff (6, 6); for compiled code."""
+    values = _careful_stiffness_at_loads(m1, m2, m3, n1, n2, n3, c)
+    return (
+        (values[0], values[1], values[2], values[3], values[4], values[5]),
+        (values[1], values[6], values[7], values[8], values[9], values[10]),
+        (values[2], values[7], values[11], values[12], values[13], values[14]),
+        (values[3], values[8], values[12], values[15], values[16], values[17]),
+        (values[4], values[9], values[13], values[16], values[18], values[19]),
+        (values[5], values[10], values[14], values[17], values[19], values[20]),
+    )
+
+
+@at_point
+def _store_stiffness_at_loads(values: Any, i: int, rows: Array) -> None:
+    """Stores what `_stiffness_at_loads` answers for a point."""
+    (
+        rows[0 * BLOCK + i], rows[1 * BLOCK + i], rows[2 * BLOCK + i], rows[3 * BLOCK + i],
+        rows[4 * BLOCK + i], rows[5 * BLOCK + i], rows[6 * BLOCK + i], rows[7 * BLOCK + i],
+        rows[8 * BLOCK + i], rows[9 * BLOCK + i], rows[10 * BLOCK + i], rows[11 * BLOCK + i],
+        rows[12 * BLOCK + i], rows[13 * BLOCK + i], rows[14 * BLOCK + i], rows[15 * BLOCK + i],
+        rows[16 * BLOCK + i], rows[17 * BLOCK + i], rows[18 * BLOCK + i], rows[19 * BLOCK + i],
+        rows[20 * BLOCK + i],
+    ) = values
+
+
+@over_points
+def _stiffness_at_loads_over(m: Array, n: Array, c: Values, stiff: Array) -> tuple[int, Any, float]:
+    """`stiffness_at_loads` at every point."""
+    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
+    rows = np.empty(21 * BLOCK)
+    for start in range(0, points, BLOCK):
+        begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            values, square = _stiffness_at_loads(
+                m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c, 1.0
+            )
+            _store_stiffness_at_loads(values, i - begin, rows)
+            fine &= (square > LOW) & (square < HIGH)
+        if not fine:
+            for i in range(begin, end):
+                values = _careful_stiffness_at_loads(
+                    m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c
+                )
+                _store_stiffness_at_loads(values, i - begin, rows)
+        _spread_6_6(rows, begin, end, stiff)
+    return past, first, worst
+
+
+def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
+    """The inputs as float arrays of one type, components first, and the trailing shape."""
+    arrays = {name: np.asarray(value) for name, value in inputs.items()}
+    for name, array in arrays.items():
+        head = HEADS[name]
+        if array.dtype.kind not in "iuf" or array.shape[: len(head)] != head:
+            wanted = ", ".join([*map(str, head), "..."])
+            kind = f"{array.dtype} of shape {array.shape}"
+            raise ValueError(f"{name} must hold real numbers in the shape ({wanted}), not {kind}")
+    dtype = np.float32 if np.result_type(*arrays.values()) == np.float32 else np.float64
+    shapes = {a.shape[len(HEADS[name]) :] for name, a in arrays.items()}
+    try:
+        shape = shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
+    except ValueError:
+        given = " and ".join(f"{name} {a.shape}" for name, a in arrays.items())
+        raise ValueError(f"{given} do not broadcast after their first axis") from None
+    ready = []
+    for name, array in arrays.items():
+        head = HEADS[name]
+        if array.shape != (*head, *shape):
+            fill = (1,) * (len(head) + len(shape) - array.ndim)
+            array = array.reshape((*head, *fill, *array.shape[len(head) :]))
+            array = np.broadcast_to(array, (*head, *shape))
+        ready.append(array.astype(dtype, copy=False))
+    return ready, shape
+
+
+def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any) -> list[Array]:
+    """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
+    shapes = [(*HEADS[name], *shape) for name in names]
+    if out is None:
+        return [np.empty(wanted, dtype) for wanted in shapes]
+    given = out if isinstance(out, tuple) else (out,)
+    if len(given) != len(names):
+        raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
+    for name, array, wanted in zip(names, given, shapes, strict=True):
+        if not isinstance(array, np.ndarray) or (array.dtype, array.shape) != (dtype, wanted):
+            kind = f"{getattr(array, 'dtype', type(array).__name__)} of shape {np.shape(array)}"
+            raise ValueError(f"out for {name} must be {dtype} of shape {wanted}, not {kind}")
+    return list(given)
+
+
+def _apply(
+    over: Callable[..., tuple[int, Any, float]],
+    inputs: Inputs,
+    c: Constants,
+    names: Sequence[str],
+    out: Any,
+) -> list[Array]:
+    """Runs ``over`` on all points, straight into the results where that is safe."""
+    results = list(out) if isinstance(out, tuple) else [out]
+    arrays: list[Any] = list(inputs.values())
+    if not _plain([*inputs, *names], [*arrays, *results], len(arrays)):
+        arrays, shape = _arguments(inputs)
+        results = _results(names, shape, arrays[0].dtype, out)
+        points = math.prod(shape)
+        given = [
+            np.ascontiguousarray(array.reshape(*HEADS[name], points))
+            for name, array in zip(inputs, arrays, strict=True)
+        ]
+        flat = [np.empty((*HEADS[name], points)) for name in names]
+    else:
+        shape, given, flat = arrays[0].shape[-1:], arrays, results
+    past, first, q = over(*given, c.values, *flat)
+    if past:
+        index = tuple(map(int, np.unravel_index(first, shape)))
+        where = f"{past} of {math.prod(shape)} do not, the first at index {index} with Q = {q!r}"
+        raise ValueError(f"strains must satisfy Q(u, v) < 1: {where}")
+    if flat is not results:
+        for result, values in zip(results, flat, strict=True):
+            result[...] = values.reshape(result.shape)
+    return results
+
+
+def _plain(names: Sequence[str], arrays: Sequence[Any], inputs: int) -> bool:
+    """Whether the arrays are as the loops want them: rows of doubles of one length, none shared."""
+    if any(type(a) is not np.ndarray or a.dtype is not DOUBLE for a in arrays):
+        return False
+    points = arrays[0].shape[-1]
+    return all(
+        a.shape == (*HEADS[name], points) and a.flags.c_contiguous
+        for name, a in zip(names, arrays, strict=True)
+    ) and not any(np.may_share_memory(r, a) for r in arrays[inputs:] for a in arrays[:inputs])
+
+
+def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+    """Strains u, v under the loads m, n (eq:uconst to eq:v3const).
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, v (3, ...) plain; at rest u = 0, v = (0, 0, 1).
+    """
+    u, v = _apply(_strains_over, {"m": m, "n": n}, constants, ("u", "v"), out)
+    return u, v
+
+
+def loads(u: ArrayLike, v: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+    """Loads m, n at the strains u, v (eq:mconst to eq:n3const).
+
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
+    Answers m (3, ...) in force times length, n (3, ...) in force.
+    Near the limit the strains hardly determine the loads.
+    """
+    m, n = _apply(_loads_over, {"u": u, "v": v}, constants, ("m", "n"), out)
+    return m, n
+
+
+def stored_energy(
+    u: ArrayLike, v: ArrayLike, constants: Constants, out: Array | None = None
+) -> Array:
+    """Stored energy W per length, in force (eq:stenergy), with the trailing shape.
+
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
+    """
+    (w,) = _apply(_stored_energy_over, {"u": u, "v": v}, constants, ("w",), out)
+    return w
+
+
+def complementary_energy(
+    m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None
+) -> Array:
+    """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    """
+    (w_star,) = _apply(_complementary_energy_over, {"m": m, "n": n}, constants, ("w_star",), out)
+    return w_star
+
+
+def stiffness(u: ArrayLike, v: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+    """Stiffness d(m, n)/d(u, v), (6, 6, ...), symmetric positive definite (Section 3.4).
+
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
+    Rows and columns are ordered (m1, m2, m3, n1, n2, n3) and (u1, u2, u3, v1, v2, v3).
+    """
+    (stiff,) = _apply(_stiffness_over, {"u": u, "v": v}, constants, ("stiff",), out)
+    return stiff
+
+
+def loads_and_stiffness(
+    u: ArrayLike, v: ArrayLike, constants: Constants, out: Triple | None = None
+) -> Triple:
+    """Loads m, n and stiffness d(m, n)/d(u, v) at the strains u, v.
+
+    u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
+    Answers m (3, ...) in force times length, n (3, ...) in force,
+    and the stiffness (6, 6, ...).
+    Rows and columns are ordered (m1, m2, m3, n1, n2, n3) and (u1, u2, u3, v1, v2, v3).
+    """
+    m, n, stiff = _apply(
+        _loads_and_stiffness_over, {"u": u, "v": v}, constants, ("m", "n", "stiff"), out
+    )
+    return m, n, stiff
+
+
+def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+    """Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
+    """
+    (soft,) = _apply(_compliance_over, {"m": m, "n": n}, constants, ("soft",), out)
+    return soft
+
+
+def strains_and_gap(
+    m: ArrayLike, n: ArrayLike, constants: Constants, out: Triple | None = None
+) -> Triple:
+    """Strains u, v under the loads m, n, and 1 - Q.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Answers u (3, ...) in 1/length, v (3, ...) plain, and the gap (...) plain: near the limit
+    it says what the strains no longer can.
+    """
+    u, v, limit_gap = _apply(
+        _strains_and_gap_over, {"m": m, "n": n}, constants, ("u", "v", "limit_gap"), out
+    )
+    return u, v, limit_gap
+
+
+def stiffness_at_loads(
+    m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None
+) -> Array:
+    """Stiffness d(m, n)/d(u, v), (6, 6, ...), at the strains of these loads.
+
+    m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
+    Rows and columns are ordered (m1, m2, m3, n1, n2, n3) and (u1, u2, u3, v1, v2, v3).
+    The inverse of the compliance; it holds where strains no longer tell the loads.
+    """
+    (stiff,) = _apply(_stiffness_at_loads_over, {"m": m, "n": n}, constants, ("stiff",), out)
+    return stiff

@@ -1,0 +1,123 @@
+"""The numba modules: their own functions, what compiled code can call, the NumPy modules' words.
+
+`test_accuracy` holds their numbers to the oracle.
+"""
+
+from __future__ import annotations
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+
+pytest.importorskip("numba", reason="numba is not installed")
+from numba import njit
+
+from rodproof.generated.numba import full_rod, full_rod_p2
+from rodproof.generated.scenes import full_rod as rod
+from rodproof.generated.scenes import full_rod_p2 as rod_p2
+
+GOOD = {"alpha": 0.7, "beta": 1.1, "zeta": 0.9, "eta": 1.6, "iota": -0.4, "gamma": 2.3}
+C2 = full_rod_p2.Constants(**GOOD)
+TWIN = rod_p2.Constants(**GOOD)
+MP = mpmath.mp.clone()
+MP.dps = 40
+
+
+@pytest.mark.parametrize(
+    ("name", "low", "high"),
+    [("exp", -700, 709), ("expm1", -40, 700), ("log", -300, 300), ("log1p", -300, 300)],
+)
+def test_own_functions_are_within_an_ulp(name: str, low: float, high: float) -> None:
+    own = getattr(full_rod, f"_{name}")
+
+    @njit
+    def over(given, made):
+        for i in range(given.shape[0]):
+            made[i] = own(given[i])
+
+    rng = np.random.default_rng(7)
+    points = rng.uniform(low, high, 300)
+    points = np.concatenate([points, rng.uniform(0.1, 3, 300)])
+    if name.startswith("log"):
+        points[:300] = 10.0 ** points[:300]
+    if name.endswith("1") or name == "log1p":
+        points = np.concatenate([points, 10.0 ** rng.uniform(-300, 0, 100)])
+    if name == "log":
+        points = np.concatenate([points, 1 + rng.uniform(-1e-6, 1e-6, 100)])
+    made = np.empty_like(points)
+    over(points, made)
+    for x, got in zip(points, made, strict=True):
+        true = getattr(MP, name)(MP.mpf(x))
+        assert abs(MP.mpf(got) - true) <= abs(true) * MP.mpf(2) ** -52 * 1.05, x
+    over(np.array([math.nan, math.inf, 800.0]), made[:3])
+    assert math.isnan(made[0])
+    assert name.startswith("log") or made[2] == math.inf
+
+
+def test_callable_from_compiled_code() -> None:
+    """The functions of one point, in a loop of somebody else's."""
+    there, back = full_rod_p2.strains_at, full_rod_p2.loads_at
+
+    @njit
+    def round_trips(m, c):
+        worst = 0.0
+        for i in range(m.shape[0]):
+            u, v = there(m[i], 0.2, -0.3, 0.1, 0.4, 0.5, c)
+            again, _ = back(u[0], u[1], u[2], v[0], v[1], v[2], c)
+            worst = max(worst, abs(again[0] - m[i]))
+        return worst
+
+    assert round_trips(np.linspace(-2, 2, 50), C2.values) < 1e-12
+    stiff = full_rod_p2.stiffness_at(0.1, 0.0, 0.2, 0.0, 0.1, 1.1, C2.values)
+    want = rod_p2.stiffness([0.1, 0, 0.2], [0, 0.1, 1.1], TWIN)
+    np.testing.assert_allclose(stiff, want, rtol=1e-14)
+    with pytest.raises(ValueError, match="Q"):
+        full_rod_p2.loads_at(9.0, 0.0, 0.0, 0.0, 0.0, 1.0, C2.values)
+
+
+def test_same_words_for_wrong_input() -> None:
+    """Checks and errors are those of the NumPy module; results go straight into ``out``."""
+    u = np.zeros((3, 4, 5))
+    u[0, 2, 3] = u[0, 3, 4] = 9.0
+    v = np.array([0, 0, 1.0]).reshape(3, 1, 1)
+    for module, c in ((full_rod_p2, C2), (rod_p2, TWIN)):
+        with pytest.raises(ValueError, match="2 of 20 do not, the first at") as caught:
+            module.loads(u, v, c)
+        assert "index (2, 3) with Q = 39.6" in str(caught.value)
+        with pytest.raises(ValueError, match="m must hold real numbers"):
+            module.strains(np.zeros(4), np.zeros(3), c)
+        with pytest.raises(ValueError, match=r"beta\^2 eta\^2"):
+            module.Constants(**{**GOOD, "iota": 9.0})
+    m, n = np.random.default_rng(0).normal(size=(2, 3, 700))
+    out = (np.empty((3, 700)), np.empty((3, 700)))
+    got = full_rod_p2.strains(m, n, C2, out=out)
+    assert got[0] is out[0]
+    for a, b in zip(got, rod_p2.strains(m, n, TWIN), strict=True):
+        np.testing.assert_allclose(a, b, rtol=1e-14, atol=1e-16)
+    over = m.copy()
+    full_rod_p2.strains(over, n, C2, out=(over, out[1]))  # results over the inputs
+    assert np.array_equal(over, out[0])
+
+
+def test_a_block_with_extremes_is_done_again_with_care() -> None:
+    """Rest, subnormal and huge loads among ordinary ones, in the last block that is not full."""
+    m, n = np.random.default_rng(0).normal(size=(2, 3, 300))
+    m[:, 290], n[:, 290] = 0, 0
+    m[:, 291], n[:, 291] = 5e-324, 0
+    m[:, 292], n[:, 292] = 1e200, -1e190
+    m[:, 293], n[:, 293] = 1e-170, 3e-165
+    got, want = full_rod_p2.strains(m, n, C2), rod_p2.strains(m, n, TWIN)
+    for a, b in zip(got, want, strict=True):
+        np.testing.assert_allclose(a, b, rtol=1e-14, atol=5e-324)
+    single = full_rod_p2.strains(m[:, 7].astype("f4"), n[:, 7].astype("f4"), C2)
+    assert single[0].dtype == np.float32
+
+
+def test_the_records_are_the_same() -> None:
+    c = full_rod.Constants(**GOOD, p=3.3)
+    twin = rod.Constants(**GOOD, p=3.3)
+    assert repr(c) == repr(twin)
+    assert c.values[:7] == (0.7, 1.1, 0.9, 1.6, -0.4, 2.3, 3.3)
+    assert all(getattr(twin, name) == getattr(c.values, name) for name in ("gap", "per_eta"))
