@@ -302,19 +302,45 @@ def equilibria(as_json: Json = False) -> None:
 @app.command()
 def measure(
     quick: Quick = False,
+    integrators: Annotated[
+        bool, typer.Option("--integrators", help="Integrators of a rod in equilibrium instead.")
+    ] = False,
     out: Annotated[
         Path | None, typer.Option(help="File; docs/report/measurement.json by default.")
     ] = None,
     as_json: Json = False,
+    jobs: Jobs = CORES,
+    scheduler: Scheduler = None,
 ) -> None:
     """Measure error and run time of every form, to JSON; goes on where it was broken off."""
     from rodproof.codegen import places
     from rodproof.codegen.measure import survey
 
+    if integrators:
+        _measure_integrators(quick, out, as_json, jobs, scheduler)
+        return
+
     with one_sentence():
         path = out or places.checkout().measurement(quick=quick)
         with show.progress("measure", kept=True) as tell:
             survey.measure(path, survey.settings(quick=quick), tell)
+    _written([path], as_json)
+
+
+def _measure_integrators(
+    quick: bool, out: Path | None, as_json: bool, jobs: int, scheduler: str | None
+) -> None:
+    """References on any workers, then the runs, which are timed, one after the other."""
+    from rodproof.codegen import places
+    from rodproof.codegen.measure.integrators import records, survey
+    from rodproof.derivations import workers
+
+    with one_sentence(workers.ERRORS):
+        with one_sentence():
+            path = out or places.checkout().integrators(quick=quick)
+        with show.progress("integrators", kept=True) as tell:
+            asked = records.settings(quick=quick)
+            survey.measure(path, asked, tell, jobs=jobs, scheduler=scheduler)
     _written([path], as_json)
 
 
@@ -332,8 +358,9 @@ def report(
     from rodproof.codegen.measure import report as reports
 
     with one_sentence():
-        source = data or places.checkout().measurement(quick=quick)
-        _written(reports.report(source, out or source.parent), as_json)
+        source = data or places.checkout().report(quick=quick)
+        folder = out or (source if source.is_dir() else source.parent)
+        _written(reports.written(source, folder), as_json)
 
 
 def _written(paths: list[Path], as_json: bool) -> None:

@@ -1,0 +1,85 @@
+"""A whole study: the references first, on any workers; then the runs, alone, as they are timed.
+
+What is known is kept in a journal beside the target, reference by reference and cell by cell (one
+rod, one form of the equations, one method): a study that was broken off loses one cell at most.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from rodproof.codegen.measure.integrators import records
+from rodproof.codegen.measure.integrators.problems import Problem
+from rodproof.codegen.measure.integrators.records import Journal, Settings, Study
+from rodproof.codegen.measure.integrators.reference import reference
+from rodproof.codegen.measure.integrators.runs import EQUATIONS, METHODS, runs
+from rodproof.derivations import workers
+
+Tell = Callable[[str, int, int], None]
+
+
+def measure(
+    path: Path,
+    asked: Settings,
+    tell: Tell,
+    *,
+    chosen: tuple[Problem, ...] | None = None,
+    jobs: int = 1,
+    scheduler: str | None = None,
+) -> Study:
+    """Study these rods (all if none is named) and store the result at ``path``.
+
+    jobs, scheduler: who computes the references, as in `workers.run`.
+    """
+    rods = records.rods(asked) if chosen is None else chosen
+    journal = Journal(path.with_suffix(".partial.jsonl"), asked)
+    cells = [(rod, name, method) for rod in rods for name in EQUATIONS for method in METHODS]
+    clock = _Clock(tell, len(rods) + len(cells))
+    clock.skip(sum(rod.name in journal.references for rod in rods))
+    missing = [rod for rod in rods if rod.name not in journal.references]
+    tasks = [workers.Task(rod.name, reference, (rod,)) for rod in missing]
+    clock.tell("references")
+    for index, known in workers.run(tasks, jobs=jobs, scheduler=scheduler):
+        journal.add_reference(known)
+        clock.done(missing[index].name)
+    for rod, name, method in cells:
+        if (rod.name, name, method) in journal.cells:
+            clock.skip(1)
+            continue
+        clock.tell(f"{rod.name}, {name}, {method}")
+        known = journal.references[rod.name]
+        journal.add_cell(runs(rod, name, method, known, asked.tolerances, asked.budget))
+        clock.done(rod.name)
+    study = Study(
+        asked,
+        rods,
+        tuple(journal.references[rod.name] for rod in rods),
+        tuple(run for rod, *rest in cells for run in journal.cells[rod.name, rest[0], rest[1]]),
+    )
+    records.save(study, path)
+    journal.path.unlink()
+    clock.tell("done")
+    return study
+
+
+class _Clock:
+    """Tells what is being done, how many of how many, and the time left at the pace so far."""
+
+    def __init__(self, tell: Tell, total: int) -> None:
+        self._tell, self._total, self._known, self._new = tell, total, 0, 0
+        self._started = time.monotonic()
+
+    def skip(self, count: int) -> None:
+        self._known += count
+
+    def done(self, name: str) -> None:
+        self._new += 1
+        self.tell(name)
+
+    def tell(self, name: str) -> None:
+        finished = self._known + self._new
+        left = (self._total - finished) * (time.monotonic() - self._started) / max(self._new, 1)
+        words = f"{name}; {left / 60:.0f} min left" if self._new and left else name
+        self._tell(words, finished, self._total)
