@@ -353,14 +353,14 @@ def report(
     out: Annotated[Path | None, typer.Option(help="Folder; beside the data by default.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Draw the page and the plots of a measurement, without measuring."""
-    from rodproof.codegen import places
+    """Draw the pages and the plots of measurements, without measuring, and pictures of the rod."""
+    from rodproof.codegen import pictures, places
     from rodproof.codegen.measure import report as reports
 
     with one_sentence():
         source = data or places.checkout().report(quick=quick)
         folder = out or (source if source.is_dir() else source.parent)
-        _written(reports.written(source, folder), as_json)
+        _written([*reports.written(source, folder), *pictures.draw(folder)], as_json)
 
 
 def _written(paths: list[Path], as_json: bool) -> None:

@@ -87,10 +87,11 @@ def write_documents(
 
 
 def measure(places: Places, stage: Stage) -> tuple[Path, ...]:
-    """A quick measurement to JSON, and the report drawn from it."""
-    from rodproof.codegen.measure import report, survey  # the module measured is new just now
+    """A quick measurement to JSON, the report drawn from it, and pictures of the rod."""
+    from rodproof.codegen import pictures  # what is drawn and measured is new just now
+    from rodproof.codegen.measure import report, survey
 
     data = places.measurement(quick=True)
     with stage("measure") as tell:
         survey.measure(data, survey.settings(quick=True), tell)
-    return (data, *report.report(data, data.parent))
+    return (data, *report.report(data, data.parent), *pictures.draw(data.parent))
