@@ -15,18 +15,25 @@ from rodproof.derivations.theory import constrained
 WIDTH = 98
 
 
+ONE_POINT = (
+    "One point: tuples of numbers (a float for a single component) are answered with tuples of "
+    "floats, in plain Python. They agree with the arrays' answers within 8 ulps of the largest "
+    "component; of loads and stiffness near the limit, as far as the strains determine them."
+)
+
+
 def header(
     scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str], target: str = ""
 ) -> str:
-    """The module's docstring; ``target`` is named in the command unless it is NumPy."""
+    """The module's docstring; ``target`` is named unless it is NumPy."""
     statements = dict.fromkeys(s for kernel in kernels for s in kernel.statements())
     cited = "; ".join(_statement(s, verdicts) for s in statements)
-    option = f" --target {target}" if target else ""
+    aim = f" for {target}" if target else ""
     noted = "paper label, verdict; as corrected if refuted" if verdicts else "paper label"
     lines = [
         f'"""{scene.summary}',
         "",
-        f"Scene {scene.name}, made by: rodproof generate {scene.name}{option}",
+        f"Scene {scene.name}{aim}, made by: rodproof generate {scene.name}",
         *(line for said in scope(scene) for line in ("", *textwrap.wrap(said, WIDTH))),
         *(line for said in _ranges(scene, kernels) for line in ("", *textwrap.wrap(said, WIDTH))),
         "",
@@ -38,6 +45,8 @@ def header(
         "",
         "Operations a point: arithmetic, transcendental, energy shares, temporaries",
     ]
+    if not target:
+        lines[-1:-1] = [*textwrap.wrap(ONE_POINT, WIDTH), ""]
     for kernel in kernels:
         c = cost(kernel)
         counts = (c.arithmetic, c.transcendental, c.special, c.temporaries)

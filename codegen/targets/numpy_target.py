@@ -8,10 +8,12 @@ called through `_balanced`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.scene import Scene
+from rodproof.codegen.targets import numpy_point as one
 from rodproof.codegen.targets import numpy_template as template
 from rodproof.codegen.targets.numpy_body import (
     Step,
@@ -43,12 +45,18 @@ def print_module(
     printer = Printer(spelling(kernels))
     steps = steps_of(kernels, printer)
     bodies = {k.name: body(k, steps, printer, words[k.name]) for k in kernels}
+    named = spelling(kernels)
+    points = {
+        k.name: [one.point(k, words[k.name], scene, named, kernels)]
+        for k in kernels
+        if one.is_own(k)
+    }
     limited = [kernel for kernel in kernels if kernel.limit]
     raising = bool(limited) and scene.at_limit == "raise"
     parts = [
         header(scene, kernels, verdicts or {})
         + "\n\n"
-        + _imports(scene, kernels, words, max(b.rows for b in bodies.values())),
+        + _imports(scene, kernels, words, max(b.rows for b in bodies.values()), points),
         print_constants(scene, kernels),
         *(step_function(step, scene) for step in steps.values()),
     ]
@@ -58,26 +66,36 @@ def print_module(
         parts.append(template.RAISE if raising else template.NAN)
     if raising:
         parts.append(_past_limit(limited[0], steps, printer))
-    parts += _plumbing(scene, raising=raising)
+    parts += [*_plumbing(scene, raising=raising), one.ONE]
     default = " = ROD" if all_have_values(scene, kernels) else ""
     for kernel in kernels:
         text = words[kernel.name]
-        parts += [bodies[kernel.name].text, _public(kernel, text, default)]
+        parts += [bodies[kernel.name].text, *points.get(kernel.name, [])]
+        parts.append(_public(kernel, text, default))
     return "\n\n\n".join(part.strip("\n") for part in parts) + "\n"
 
 
 def _imports(
-    scene: Scene, kernels: tuple[Kernel, ...], words: Mapping[str, FunctionText], rows: int
+    scene: Scene,
+    kernels: tuple[Kernel, ...],
+    words: Mapping[str, FunctionText],
+    rows: int,
+    points: Mapping[str, list[str]],
 ) -> str:
     """Imports, names of types, and the tables that the functions look things up in."""
     derived = derived_constants(kernels)
     heads = {n: h for text in words.values() for n, h in (text.inputs | text.outputs).items()}
     standard = ["from fractions import Fraction"] if derived else []
     standard += ["from functools import cached_property"] if needs_work_share(kernels) else []
+    single = "".join(text for texts in points.values() for text in texts)
+    functions = [name for name in one.FUNCTIONS if re.search(rf"(?<!\w){name}\(", single)]
+    standard += [f"from math import {', '.join(functions)}"] if functions else []
     used = {s.name for kernel in kernels for e in kernel.expressions() for s in e.free_symbols}
     guards = [template.LOG_MAX] if "log_max" in used else []
     if guards or "tiny" in used or any(kernel.gauge for kernel in kernels):
         guards = [template.TINY, *guards]
+    guards += [one.LEAST] if "LEAST" in single or "LOG_MOST" in single else []
+    guards += [one.LOW] if "LOW" in single else []
     several = sorted({len(text.outputs) for text in words.values()} - {1})
     kinds = {2: "Pair = tuple[Array, Array]", 3: "Triple = tuple[Array, Array, Array]"}
     text = template.IMPORTS.substitute(
@@ -130,12 +148,15 @@ def _public(kernel: Kernel, text: FunctionText, default: str) -> str:
     single = len(text.outputs) == 1
     kind = ("Array", "Pair", "Triple")[len(text.outputs) - 1]
     names = ", ".join(text.outputs)
-    given = ", ".join(f"{name}: ArrayLike" for name in text.inputs)
+    given = ", ".join(
+        f"{name}: Given{'' if head else ' | float'}" for name, head in text.inputs.items()
+    )
     arguments = f"{given}, constants: Constants{default}"
     lines = wrapped(
         f"def {kernel.name}(", [arguments, f"out: {kind} | None = None"], f") -> {kind}:", ", ", ""
     )
     lines += [f'    """{text.doc}', '    """'] if "\n" in text.doc else [f'    """{text.doc}"""']
+    lines += one.opening(kernel, text, kind)
     inputs = "{" + ", ".join(f'"{name}": {name}' for name in text.inputs) + "}"
     results = ", ".join(f'"{name}"' for name in text.outputs) + ("," if single else "")
     lines += wrapped(

@@ -22,7 +22,8 @@ from numpy.typing import ArrayLike
 Array = np.ndarray[Any, np.dtype[Any]]
 $tuples
 Rows = Sequence[Array]
-Inputs = dict[str, ArrayLike]
+Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
+Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
 ROWS = $rows  # of scratch
@@ -287,6 +288,8 @@ def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
     """Runs ``body`` over blocks of points, straight into the results where that is safe."""
+    if out is not None and all(type(value) is tuple for value in inputs.values()):
+        raise ValueError("out is for arrays; tuples of numbers are answered with new tuples")
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
@@ -317,6 +320,8 @@ def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
     """Runs ``body`` over blocks of points, components first in them, last in the results."""
+    if out is not None and all(type(value) is tuple for value in inputs.values()):
+        raise ValueError("out is for arrays; tuples of numbers are answered with new tuples")
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)

@@ -77,7 +77,7 @@ def body(
     packed: matrices are the entries on and above the diagonal.
     """
     ready = atomic(_entries(_rows(_resolved(_named(kernel), dialect))))
-    printer = ScalarPrinter({**LIMITS, **spelling}, dialect)
+    printer = ScalarPrinter({**spelling, **LIMITS}, dialect)
     lines: list[str] = []
     waiting: list[Assignment] = []
     scaled = kernel.gauge if dialect.scaled else None

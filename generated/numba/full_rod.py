@@ -1,6 +1,6 @@
 """The strain-limiting special Cosserat rod: every strain, every load, any p.
 
-Scene full_rod, made by: rodproof generate full_rod --target numba
+Scene full_rod for numba, made by: rodproof generate full_rod
 
 Statements it rests on (paper label, verdict; as corrected if refuted): qstar-form Section 3.1
 refuted; const-u-mu eq:uconst proved; const-u-3 eq:u3const proved; const-v-mu eq:vconst proved;

@@ -1,6 +1,6 @@
 """The full rod at p = 2: square roots for powers, energies in closed form.
 
-Scene full_rod_p2, made by: rodproof generate full_rod_p2 --target numba
+Scene full_rod_p2 for numba, made by: rodproof generate full_rod_p2
 
 Fixed: p = 2.
 

@@ -13,6 +13,10 @@ hess-m3-u3 refuted; hess-m3-v3 refuted; hess-n3-v3 reading; wstar-gradient Secti
 
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
+One point: tuples of numbers (a float for a single component) are answered with tuples of floats,
+in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
+loads and stiffness near the limit, as far as the strains determine them.
+
 Operations a point: arithmetic, transcendental, energy shares, temporaries
     strains                41    4    0   14
     loads                  33    4    0   14
@@ -32,6 +36,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from math import exp, expm1, log, log1p, sqrt
 from typing import Any
 
 import numpy as np
@@ -41,12 +46,15 @@ Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
 Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
-Inputs = dict[str, ArrayLike]
+Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
+Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
 ROWS = 18  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
+LEAST, LOG_MOST = 2.0**-1022, 0.99 * 1022 * math.log(2)  # for one point, in doubles
+LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 HEADS = {
     "m": (3,), "n3": (), "u": (3,), "v3": (), "w": (), "w_star": (), "stiff": (4, 4),
     "soft": (4, 4), "limit_gap": (),
@@ -373,6 +381,8 @@ def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
     """Runs ``body`` over blocks of points, straight into the results where that is safe."""
+    if out is not None and all(type(value) is tuple for value in inputs.values()):
+        raise ValueError("out is for arrays; tuples of numbers are answered with new tuples")
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
@@ -401,6 +411,29 @@ def _apply(
     return results
 
 
+def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
+    """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
+    arrays, shape = _arguments(inputs)
+    if shape:  # tuples of arrays
+        return law(*map(np.asarray, inputs.values()), c)
+    floats = [a.astype(float).tolist() for a in arrays]
+    again = tuple(tuple(f) if isinstance(f, list) else f for f in floats)
+    if repr(again) != repr((*inputs.values(),)):
+        return law(*again, c)
+    answer = law(*map(np.array, floats), c)
+    if not isinstance(answer, tuple):
+        return _numbers(answer)
+    return tuple(_numbers(array) for array in answer)
+
+
+def _numbers(array: Array) -> Any:
+    """The array as a float, a tuple of floats, or a tuple of rows."""
+    values = array.astype(float).tolist()
+    if array.ndim == 2:
+        return tuple(map(tuple, values))
+    return tuple(values) if array.ndim else values
+
+
 def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> None:
     """(u, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n3)."""
     s = [*u, v3, *work]
@@ -418,12 +451,39 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> Non
     v3 += 1
 
 
-def strains(m: ArrayLike, n3: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+def _strains_at(m: Any, n3: Any, c: Constants) -> Any:
+    """`strains` of floats; None where it is left to arrays."""
+    m1, m2, m3 = m
+    if not type(m1) is type(m2) is type(m3) is type(n3) is float:
+        return None
+    mu_1, mu_2, mu_3 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    q_star = c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if not LOW < q_star < HIGH:
+        return None
+    y = sqrt(q_star)
+    larger = y if y > c.gamma else c.gamma
+    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**c.p
+    factor = exp(-log1p(power) / c.p) / larger
+    bend, turn, extend = c.per_alpha * factor, c.per_beta * factor, c.per_eta * factor
+    return (bend * mu_1, bend * mu_2, turn * twist), dilatation * extend + 1
+
+
+def strains(m: Given, n3: Given | float, constants: Constants, out: Pair | None = None) -> Pair:
     """Strains u, v3 under the loads m, n3 (eq:uconst to eq:v3const).
 
     m (3, ...) in force times length, n3 (...) in force, with Q*^(1/2) finite.
     Answers u (3, ...) in 1/length, v3 (...) plain; at rest u = 0, v3 = 1.
     """
+    if out is None and type(m) is tuple and type(n3) is float:
+        try:
+            answer: Pair | None = _strains_at(m, n3, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(strains, {"m": m, "n3": n3}, constants)
     u, v3 = _apply(_strains, {"m": m, "n3": n3}, constants, ("u", "v3"), out)
     return u, v3
 
@@ -445,13 +505,39 @@ def _loads(strains: Rows, c: Constants, work: Array, m: Array, n3: Array) -> Non
     np.multiply(extend, tension, out=n3)
 
 
-def loads(u: ArrayLike, v3: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+def _loads_at(u: Any, v3: Any, c: Constants) -> Any:
+    """`loads` of floats; None where it is left to arrays."""
+    u1, u2, u3 = u
+    if not type(u1) is type(u2) is type(u3) is type(v3) is float:
+        return None
+    stretch = v3 - 1
+    kappa_1, kappa_2, kappa_3, lam_3 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.eta * stretch
+    torque = c.chirality * lam_3 + kappa_3
+    tension = c.chirality * torque + c.gap * lam_3
+    q = c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + torque * torque
+    if not q < 1:
+        return None
+    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
+    depth = log1p(growth)
+    factor = c.gamma * exp(depth / c.p)
+    bend, turn, extend = c.alpha * factor, c.beta * factor, c.eta * factor
+    return (bend * kappa_1, bend * kappa_2, torque * turn), extend * tension
+
+
+def loads(u: Given, v3: Given | float, constants: Constants, out: Pair | None = None) -> Pair:
     """Loads m, n3 at the strains u, v3 (eq:mconst to eq:n3const).
 
     u (3, ...) in 1/length, v3 (...) plain, with Q < 1 (eq:strainlimiting).
     Answers m (3, ...) in force times length, n3 (...) in force.
     Near the limit the strains hardly determine the loads.
     """
+    if out is None and type(u) is tuple and type(v3) is float:
+        try:
+            answer: Pair | None = _loads_at(u, v3, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(loads, {"u": u, "v3": v3}, constants)
     m, n3 = _apply(_loads, {"u": u, "v3": v3}, constants, ("m", "n3"), out)
     return m, n3
 
@@ -469,12 +555,15 @@ def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
 
 
 def stored_energy(
-    u: ArrayLike, v3: ArrayLike, constants: Constants, out: Array | None = None
+    u: Given, v3: Given | float, constants: Constants, out: Array | None = None
 ) -> Array:
     """Stored energy W per length, in force (eq:stenergy), with the trailing shape.
 
     u (3, ...) in 1/length, v3 (...) plain, with Q < 1 (eq:strainlimiting).
     """
+    if out is None and type(u) is tuple and type(v3) is float:
+        answer: Array = _one(stored_energy, {"u": u, "v3": v3}, constants)
+        return answer
     (w,) = _apply(_stored_energy, {"u": u, "v3": v3}, constants, ("w",), out)
     return w
 
@@ -493,12 +582,15 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
 
 
 def complementary_energy(
-    m: ArrayLike, n3: ArrayLike, constants: Constants, out: Array | None = None
+    m: Given, n3: Given | float, constants: Constants, out: Array | None = None
 ) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
     m (3, ...) in force times length, n3 (...) in force, with Q*^(1/2) finite.
     """
+    if out is None and type(m) is tuple and type(n3) is float:
+        answer: Array = _one(complementary_energy, {"m": m, "n3": n3}, constants)
+        return answer
     (w_star,) = _apply(_complementary_energy, {"m": m, "n3": n3}, constants, ("w_star",), out)
     return w_star
 
@@ -537,12 +629,24 @@ def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
         stiff[i, :i] = stiff[:i, i]
 
 
-def stiffness(u: ArrayLike, v3: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+def _stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
+    """`stiffness` of floats; None where it is left to arrays."""
+    whole = _loads_and_stiffness_at(u, v3, c)
+    return whole and whole[-1]
+
+
+def stiffness(u: Given, v3: Given | float, constants: Constants, out: Array | None = None) -> Array:
     """Stiffness d(m, n3)/d(u, v3), (4, 4, ...), symmetric positive definite (Section 3.4).
 
     u (3, ...) in 1/length, v3 (...) plain, with Q < 1 (eq:strainlimiting).
     Rows and columns are ordered (m1, m2, m3, n3) and (u1, u2, u3, v3).
     """
+    if out is None and type(u) is tuple and type(v3) is float:
+        try:
+            answer: Array | None = _stiffness_at(u, v3, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(stiffness, {"u": u, "v3": v3}, constants)
     (stiff,) = _apply(_stiffness, {"u": u, "v3": v3}, constants, ("stiff",), out)
     return stiff
 
@@ -590,8 +694,44 @@ def _loads_and_stiffness(
         stiff[i, :i] = stiff[:i, i]
 
 
+def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
+    """`loads_and_stiffness` of floats; None where it is left to arrays."""
+    u1, u2, u3 = u
+    if not type(u1) is type(u2) is type(u3) is type(v3) is float:
+        return None
+    stretch = v3 - 1
+    kappa_1, kappa_2, kappa_3, lam_3 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.eta * stretch
+    torque = c.chirality * lam_3 + kappa_3
+    tension = c.chirality * torque + c.gap * lam_3
+    q = c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + torque * torque
+    if not q < 1:
+        return None
+    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    growth, x = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST), sqrt(q if q > LEAST else LEAST)
+    depth = log1p(growth)
+    factor = c.gamma * exp(depth / c.p)
+    steep, bend, turn, extend = factor * growth, c.alpha * factor, c.beta * factor, c.eta * factor
+    per_x = 1 / x
+    bend_per_x, turn_per_x, extend_per_x = c.alpha * per_x, c.beta * per_x, c.eta * per_x
+    t1, t2, t3 = bend_per_x * kappa_1, bend_per_x * kappa_2, torque * turn_per_x
+    t6, steep_1, steep_2, steep_3 = extend_per_x * tension, steep * t1, steep * t2, steep * t3
+    steep_4 = steep * t6
+    k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
+    k14 = steep_1 * t6
+    k22, k23, k24 = c.alpha * c.alpha * factor + steep_2 * t2, steep_2 * t3, steep_2 * t6
+    k33, k34 = c.beta * c.beta * factor + steep_3 * t3, c.iota * factor + steep_3 * t6
+    k44 = c.eta * c.eta * factor + steep_4 * t6
+    stiff = (
+        (k11, k12, k13, k14),
+        (k12, k22, k23, k24),
+        (k13, k23, k33, k34),
+        (k14, k24, k34, k44),
+    )
+    return (bend * kappa_1, bend * kappa_2, torque * turn), extend * tension, stiff
+
+
 def loads_and_stiffness(
-    u: ArrayLike, v3: ArrayLike, constants: Constants, out: Triple | None = None
+    u: Given, v3: Given | float, constants: Constants, out: Triple | None = None
 ) -> Triple:
     """Loads m, n3 and stiffness d(m, n3)/d(u, v3) at the strains u, v3.
 
@@ -600,6 +740,12 @@ def loads_and_stiffness(
     and the stiffness (4, 4, ...).
     Rows and columns are ordered (m1, m2, m3, n3) and (u1, u2, u3, v3).
     """
+    if out is None and type(u) is tuple and type(v3) is float:
+        try:
+            answer: Triple | None = _loads_and_stiffness_at(u, v3, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(loads_and_stiffness, {"u": u, "v3": v3}, constants)
     m, n3, stiff = _apply(
         _loads_and_stiffness, {"u": u, "v3": v3}, constants, ("m", "n3", "stiff"), out
     )
@@ -683,13 +829,16 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
 
 
 def compliance(
-    m: ArrayLike, n3: ArrayLike, constants: Constants, out: Array | None = None
+    m: Given, n3: Given | float, constants: Constants, out: Array | None = None
 ) -> Array:
     """Compliance d(u, v3)/d(m, n3), (4, 4, ...), the inverse of the stiffness at these loads.
 
     m (3, ...) in force times length, n3 (...) in force, with Q*^(1/2) finite.
     Rows and columns are ordered (u1, u2, u3, v3) and (m1, m2, m3, n3).
     """
+    if out is None and type(m) is tuple and type(n3) is float:
+        answer: Array = _one(compliance, {"m": m, "n3": n3}, constants)
+        return answer
     (soft,) = _apply(_compliance, {"m": m, "n3": n3}, constants, ("soft",), out)
     return soft
 
@@ -717,7 +866,7 @@ def _strains_and_gap(
 
 
 def strains_and_gap(
-    m: ArrayLike, n3: ArrayLike, constants: Constants, out: Triple | None = None
+    m: Given, n3: Given | float, constants: Constants, out: Triple | None = None
 ) -> Triple:
     """Strains u, v3 under the loads m, n3, and 1 - Q^(p/2).
 
@@ -725,6 +874,9 @@ def strains_and_gap(
     Answers u (3, ...) in 1/length, v3 (...) plain, and the gap (...) plain: near the limit
     it says what the strains no longer can.
     """
+    if out is None and type(m) is tuple and type(n3) is float:
+        answer: Triple = _one(strains_and_gap, {"m": m, "n3": n3}, constants)
+        return answer
     u, v3, limit_gap = _apply(
         _strains_and_gap, {"m": m, "n3": n3}, constants, ("u", "v3", "limit_gap"), out
     )
@@ -760,7 +912,7 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
 
 
 def stiffness_at_loads(
-    m: ArrayLike, n3: ArrayLike, constants: Constants, out: Array | None = None
+    m: Given, n3: Given | float, constants: Constants, out: Array | None = None
 ) -> Array:
     """Stiffness d(m, n3)/d(u, v3), (4, 4, ...), at the strains of these loads.
 
@@ -768,5 +920,8 @@ def stiffness_at_loads(
     Rows and columns are ordered (m1, m2, m3, n3) and (u1, u2, u3, v3).
     The inverse of the compliance; it holds where strains no longer tell the loads.
     """
+    if out is None and type(m) is tuple and type(n3) is float:
+        answer: Array = _one(stiffness_at_loads, {"m": m, "n3": n3}, constants)
+        return answer
     (stiff,) = _apply(_stiffness_at_loads, {"m": m, "n3": n3}, constants, ("stiff",), out)
     return stiff

@@ -13,6 +13,10 @@ hess-m-u reading; hess-m-u3 reading; hess-m3-u3 refuted; wstar-gradient Section 
 
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
+One point: tuples of numbers (a float for a single component) are answered with tuples of floats,
+in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
+loads and stiffness near the limit, as far as the strains determine them.
+
 Operations a point: arithmetic, transcendental, energy shares, temporaries
     strains                28    4    0   11
     loads                  21    4    0    9
@@ -32,6 +36,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from math import exp, expm1, log, log1p, sqrt
 from typing import Any
 
 import numpy as np
@@ -40,12 +45,15 @@ from numpy.typing import ArrayLike
 Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
 Rows = Sequence[Array]
-Inputs = dict[str, ArrayLike]
+Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
+Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
 ROWS = 13  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
+LEAST, LOG_MOST = 2.0**-1022, 0.99 * 1022 * math.log(2)  # for one point, in doubles
+LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 HEADS = {
     "m": (3,), "u": (3,), "w": (), "w_star": (), "stiff": (3, 3), "soft": (3, 3), "limit_gap": (),
 }
@@ -310,6 +318,8 @@ def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
     """Runs ``body`` over blocks of points, straight into the results where that is safe."""
+    if out is not None and all(type(value) is tuple for value in inputs.values()):
+        raise ValueError("out is for arrays; tuples of numbers are answered with new tuples")
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
@@ -338,6 +348,29 @@ def _apply(
     return results
 
 
+def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
+    """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
+    arrays, shape = _arguments(inputs)
+    if shape:  # tuples of arrays
+        return law(*map(np.asarray, inputs.values()), c)
+    floats = [a.astype(float).tolist() for a in arrays]
+    again = tuple(tuple(f) if isinstance(f, list) else f for f in floats)
+    if repr(again) != repr((*inputs.values(),)):
+        return law(*again, c)
+    answer = law(*map(np.array, floats), c)
+    if not isinstance(answer, tuple):
+        return _numbers(answer)
+    return tuple(_numbers(array) for array in answer)
+
+
+def _numbers(array: Array) -> Any:
+    """The array as a float, a tuple of floats, or a tuple of rows."""
+    values = array.astype(float).tolist()
+    if array.ndim == 2:
+        return tuple(map(tuple, values))
+    return tuple(values) if array.ndim else values
+
+
 def _strains(loads: Rows, c: Constants, work: Array, u: Array) -> None:
     """u = (gamma^p + Q*^(p/2))^(-1/p) K^-1 m."""
     s = [*u, *work]
@@ -352,12 +385,37 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array) -> None:
     np.multiply(mu_3, turn, out=u[2])
 
 
-def strains(m: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+def _strains_at(m: Any, c: Constants) -> Any:
+    """`strains` of floats; None where it is left to arrays."""
+    m1, m2, m3 = m
+    if not type(m1) is type(m2) is type(m3) is float:
+        return None
+    mu_1, mu_2, mu_3 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3
+    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if not LOW < q_star < HIGH:
+        return None
+    y = sqrt(q_star)
+    larger = y if y > c.gamma else c.gamma
+    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**c.p
+    factor = exp(-log1p(power) / c.p) / larger
+    bend, turn = c.per_alpha * factor, c.per_beta * factor
+    return (bend * mu_1, bend * mu_2, mu_3 * turn)
+
+
+def strains(m: Given, constants: Constants, out: Array | None = None) -> Array:
     """Strains u under the loads m (eq:uconst to eq:u3const).
 
     m (3, ...) in force times length, with Q*^(1/2) finite.
     Answers u (3, ...) in 1/length; at rest u = 0.
     """
+    if out is None and type(m) is tuple:
+        try:
+            answer: Array | None = _strains_at(m, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(strains, {"m": m}, constants)
     (u,) = _apply(_strains, {"m": m}, constants, ("u",), out)
     return u
 
@@ -376,13 +434,36 @@ def _loads(strains: Rows, c: Constants, work: Array, m: Array) -> None:
     np.multiply(kappa_3, turn, out=m[2])
 
 
-def loads(u: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+def _loads_at(u: Any, c: Constants) -> Any:
+    """`loads` of floats; None where it is left to arrays."""
+    u1, u2, u3 = u
+    if not type(u1) is type(u2) is type(u3) is float:
+        return None
+    kappa_1, kappa_2, kappa_3 = c.alpha * u1, c.alpha * u2, c.beta * u3
+    q = kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3
+    if not q < 1:
+        return None
+    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
+    depth = log1p(growth)
+    factor = c.gamma * exp(depth / c.p)
+    bend, turn = c.alpha * factor, c.beta * factor
+    return (bend * kappa_1, bend * kappa_2, kappa_3 * turn)
+
+
+def loads(u: Given, constants: Constants, out: Array | None = None) -> Array:
     """Loads m at the strains u (eq:mconst to eq:m3const).
 
     u (3, ...) in 1/length, with Q < 1 (eq:strainlimiting).
     Answers m (3, ...) in force times length.
     Near the limit the strains hardly determine the loads.
     """
+    if out is None and type(u) is tuple:
+        try:
+            answer: Array | None = _loads_at(u, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(loads, {"u": u}, constants)
     (m,) = _apply(_loads, {"u": u}, constants, ("m",), out)
     return m
 
@@ -398,11 +479,14 @@ def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
     w *= _work_share(depth, c)
 
 
-def stored_energy(u: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+def stored_energy(u: Given, constants: Constants, out: Array | None = None) -> Array:
     """Stored energy W per length, in force (eq:stenergy), with the trailing shape.
 
     u (3, ...) in 1/length, with Q < 1 (eq:strainlimiting).
     """
+    if out is None and type(u) is tuple:
+        answer: Array = _one(stored_energy, {"u": u}, constants)
+        return answer
     (w,) = _apply(_stored_energy, {"u": u}, constants, ("w",), out)
     return w
 
@@ -420,11 +504,14 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
     w_star *= y
 
 
-def complementary_energy(m: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+def complementary_energy(m: Given, constants: Constants, out: Array | None = None) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
     m (3, ...) in force times length, with Q*^(1/2) finite.
     """
+    if out is None and type(m) is tuple:
+        answer: Array = _one(complementary_energy, {"m": m}, constants)
+        return answer
     (w_star,) = _apply(_complementary_energy, {"m": m}, constants, ("w_star",), out)
     return w_star
 
@@ -458,12 +545,24 @@ def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
         stiff[i, :i] = stiff[:i, i]
 
 
-def stiffness(u: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+def _stiffness_at(u: Any, c: Constants) -> Any:
+    """`stiffness` of floats; None where it is left to arrays."""
+    whole = _loads_and_stiffness_at(u, c)
+    return whole and whole[-1]
+
+
+def stiffness(u: Given, constants: Constants, out: Array | None = None) -> Array:
     """Stiffness d m/d u, (3, 3, ...), symmetric positive definite (Section 3.4).
 
     u (3, ...) in 1/length, with Q < 1 (eq:strainlimiting).
     Rows and columns are ordered (m1, m2, m3) and (u1, u2, u3).
     """
+    if out is None and type(u) is tuple:
+        try:
+            answer: Array | None = _stiffness_at(u, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(stiffness, {"u": u}, constants)
     (stiff,) = _apply(_stiffness, {"u": u}, constants, ("stiff",), out)
     return stiff
 
@@ -502,7 +601,36 @@ def _loads_and_stiffness(strains: Rows, c: Constants, work: Array, m: Array, sti
         stiff[i, :i] = stiff[:i, i]
 
 
-def loads_and_stiffness(u: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+def _loads_and_stiffness_at(u: Any, c: Constants) -> Any:
+    """`loads_and_stiffness` of floats; None where it is left to arrays."""
+    u1, u2, u3 = u
+    if not type(u1) is type(u2) is type(u3) is float:
+        return None
+    kappa_1, kappa_2, kappa_3 = c.alpha * u1, c.alpha * u2, c.beta * u3
+    q = kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3
+    if not q < 1:
+        return None
+    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    growth, x = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST), sqrt(q if q > LEAST else LEAST)
+    depth = log1p(growth)
+    factor = c.gamma * exp(depth / c.p)
+    steep, bend, turn = factor * growth, c.alpha * factor, c.beta * factor
+    per_x = 1 / x
+    bend_per_x, turn_per_x = c.alpha * per_x, c.beta * per_x
+    t1, t2, t3 = bend_per_x * kappa_1, bend_per_x * kappa_2, kappa_3 * turn_per_x
+    steep_1, steep_2, steep_3 = steep * t1, steep * t2, steep * t3
+    k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
+    k22, k23 = c.alpha * c.alpha * factor + steep_2 * t2, steep_2 * t3
+    k33 = c.beta * c.beta * factor + steep_3 * t3
+    stiff = (
+        (k11, k12, k13),
+        (k12, k22, k23),
+        (k13, k23, k33),
+    )
+    return (bend * kappa_1, bend * kappa_2, kappa_3 * turn), stiff
+
+
+def loads_and_stiffness(u: Given, constants: Constants, out: Pair | None = None) -> Pair:
     """Loads m and stiffness d m/d u at the strains u.
 
     u (3, ...) in 1/length, with Q < 1 (eq:strainlimiting).
@@ -510,6 +638,12 @@ def loads_and_stiffness(u: ArrayLike, constants: Constants, out: Pair | None = N
     and the stiffness (3, 3, ...).
     Rows and columns are ordered (m1, m2, m3) and (u1, u2, u3).
     """
+    if out is None and type(u) is tuple:
+        try:
+            answer: Pair | None = _loads_and_stiffness_at(u, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(loads_and_stiffness, {"u": u}, constants)
     m, stiff = _apply(_loads_and_stiffness, {"u": u}, constants, ("m", "stiff"), out)
     return m, stiff
 
@@ -565,12 +699,15 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
         soft[i, :i] = soft[:i, i]
 
 
-def compliance(m: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+def compliance(m: Given, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d u/d m, (3, 3, ...), the inverse of the stiffness at these loads.
 
     m (3, ...) in force times length, with Q*^(1/2) finite.
     Rows and columns are ordered (u1, u2, u3) and (m1, m2, m3).
     """
+    if out is None and type(m) is tuple:
+        answer: Array = _one(compliance, {"m": m}, constants)
+        return answer
     (soft,) = _apply(_compliance, {"m": m}, constants, ("soft",), out)
     return soft
 
@@ -592,13 +729,16 @@ def _strains_and_gap(loads: Rows, c: Constants, work: Array, u: Array, limit_gap
     limit_gap[...] = remain
 
 
-def strains_and_gap(m: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+def strains_and_gap(m: Given, constants: Constants, out: Pair | None = None) -> Pair:
     """Strains u under the loads m, and 1 - Q^(p/2).
 
     m (3, ...) in force times length, with Q*^(1/2) finite.
     Answers u (3, ...) in 1/length, and the gap (...) plain: near the limit
     it says what the strains no longer can.
     """
+    if out is None and type(m) is tuple:
+        answer: Pair = _one(strains_and_gap, {"m": m}, constants)
+        return answer
     u, limit_gap = _apply(_strains_and_gap, {"m": m}, constants, ("u", "limit_gap"), out)
     return u, limit_gap
 
@@ -627,12 +767,15 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
         stiff[i, :i] = stiff[:i, i]
 
 
-def stiffness_at_loads(m: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+def stiffness_at_loads(m: Given, constants: Constants, out: Array | None = None) -> Array:
     """Stiffness d m/d u, (3, 3, ...), at the strains of these loads.
 
     m (3, ...) in force times length, with Q*^(1/2) finite.
     Rows and columns are ordered (m1, m2, m3) and (u1, u2, u3).
     The inverse of the compliance; it holds where strains no longer tell the loads.
     """
+    if out is None and type(m) is tuple:
+        answer: Array = _one(stiffness_at_loads, {"m": m}, constants)
+        return answer
     (stiff,) = _apply(_stiffness_at_loads, {"m": m}, constants, ("stiff",), out)
     return stiff

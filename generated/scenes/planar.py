@@ -13,6 +13,10 @@ hess-n-v reading; hess-n-v3 reading; hess-n3-v3 reading; wstar-gradient Section 
 
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
+One point: tuples of numbers (a float for a single component) are answered with tuples of floats,
+in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
+loads and stiffness near the limit, as far as the strains determine them.
+
 Operations a point: arithmetic, transcendental, energy shares, temporaries
     strains                30    4    0   12
     loads                  23    4    0   11
@@ -32,6 +36,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from math import exp, expm1, log, log1p, sqrt
 from typing import Any
 
 import numpy as np
@@ -41,12 +46,15 @@ Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
 Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
-Inputs = dict[str, ArrayLike]
+Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
+Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
 ROWS = 13  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
+LEAST, LOG_MOST = 2.0**-1022, 0.99 * 1022 * math.log(2)  # for one point, in doubles
+LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 HEADS = {
     "m2": (), "n": (2,), "u2": (), "v": (2,), "w": (), "w_star": (), "stiff": (3, 3),
     "soft": (3, 3), "limit_gap": (),
@@ -316,6 +324,8 @@ def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
     """Runs ``body`` over blocks of points, straight into the results where that is safe."""
+    if out is not None and all(type(value) is tuple for value in inputs.values()):
+        raise ValueError("out is for arrays; tuples of numbers are answered with new tuples")
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
@@ -344,6 +354,29 @@ def _apply(
     return results
 
 
+def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
+    """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
+    arrays, shape = _arguments(inputs)
+    if shape:  # tuples of arrays
+        return law(*map(np.asarray, inputs.values()), c)
+    floats = [a.astype(float).tolist() for a in arrays]
+    again = tuple(tuple(f) if isinstance(f, list) else f for f in floats)
+    if repr(again) != repr((*inputs.values(),)):
+        return law(*again, c)
+    answer = law(*map(np.array, floats), c)
+    if not isinstance(answer, tuple):
+        return _numbers(answer)
+    return tuple(_numbers(array) for array in answer)
+
+
+def _numbers(array: Array) -> Any:
+    """The array as a float, a tuple of floats, or a tuple of rows."""
+    values = array.astype(float).tolist()
+    if array.ndim == 2:
+        return tuple(map(tuple, values))
+    return tuple(values) if array.ndim else values
+
+
 def _strains(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> None:
     """(u2, v1, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m2, n1, n3)."""
     s = [u2, *v, *work]
@@ -360,12 +393,37 @@ def _strains(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> Non
     v[1] += 1
 
 
-def strains(m2: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+def _strains_at(m2: Any, n: Any, c: Constants) -> Any:
+    """`strains` of floats; None where it is left to arrays."""
+    n1, n3 = n
+    if not type(m2) is type(n1) is type(n3) is float:
+        return None
+    mu_2, nu_1, nu_3 = c.per_alpha * m2, c.per_zeta * n1, c.per_eta * n3
+    q_star = mu_2 * mu_2 + nu_1 * nu_1 + nu_3 * nu_3
+    if not LOW < q_star < HIGH:
+        return None
+    y = sqrt(q_star)
+    larger = y if y > c.gamma else c.gamma
+    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**c.p
+    factor = exp(-log1p(power) / c.p) / larger
+    bend, shear, extend = c.per_alpha * factor, c.per_zeta * factor, c.per_eta * factor
+    return bend * mu_2, (nu_1 * shear, extend * nu_3 + 1)
+
+
+def strains(m2: Given | float, n: Given, constants: Constants, out: Pair | None = None) -> Pair:
     """Strains u2, v under the loads m2, n (eq:uconst to eq:v3const).
 
     m2 (...) in force times length, n (2, ...) in force (n1 and n3), with Q*^(1/2) finite.
     Answers u2 (...) in 1/length, v (2, ...) plain (v1 and v3); at rest u2 = 0, v = (0, 1).
     """
+    if out is None and type(n) is tuple and type(m2) is float:
+        try:
+            answer: Pair | None = _strains_at(m2, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(strains, {"m2": m2, "n": n}, constants)
     u2, v = _apply(_strains, {"m2": m2, "n": n}, constants, ("u2", "v"), out)
     return u2, v
 
@@ -386,13 +444,37 @@ def _loads(strains: Rows, c: Constants, work: Array, m2: Array, n: Array) -> Non
     np.multiply(extend, lam_3, out=n[1])
 
 
-def loads(u2: ArrayLike, v: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+def _loads_at(u2: Any, v: Any, c: Constants) -> Any:
+    """`loads` of floats; None where it is left to arrays."""
+    v1, v3 = v
+    if not type(u2) is type(v1) is type(v3) is float:
+        return None
+    stretch = v3 - 1
+    kappa_2, lam_1, lam_3 = c.alpha * u2, c.zeta * v1, c.eta * stretch
+    q = kappa_2 * kappa_2 + lam_1 * lam_1 + lam_3 * lam_3
+    if not q < 1:
+        return None
+    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
+    depth = log1p(growth)
+    factor = c.gamma * exp(depth / c.p)
+    bend, shear, extend = c.alpha * factor, c.zeta * factor, c.eta * factor
+    return bend * kappa_2, (lam_1 * shear, extend * lam_3)
+
+
+def loads(u2: Given | float, v: Given, constants: Constants, out: Pair | None = None) -> Pair:
     """Loads m2, n at the strains u2, v (eq:mconst to eq:n3const).
 
     u2 (...) in 1/length, v (2, ...) plain (v1 and v3), with Q < 1 (eq:strainlimiting).
     Answers m2 (...) in force times length, n (2, ...) in force (n1 and n3).
     Near the limit the strains hardly determine the loads.
     """
+    if out is None and type(v) is tuple and type(u2) is float:
+        try:
+            answer: Pair | None = _loads_at(u2, v, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(loads, {"u2": u2, "v": v}, constants)
     m2, n = _apply(_loads, {"u2": u2, "v": v}, constants, ("m2", "n"), out)
     return m2, n
 
@@ -410,12 +492,15 @@ def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
 
 
 def stored_energy(
-    u2: ArrayLike, v: ArrayLike, constants: Constants, out: Array | None = None
+    u2: Given | float, v: Given, constants: Constants, out: Array | None = None
 ) -> Array:
     """Stored energy W per length, in force (eq:stenergy), with the trailing shape.
 
     u2 (...) in 1/length, v (2, ...) plain (v1 and v3), with Q < 1 (eq:strainlimiting).
     """
+    if out is None and type(v) is tuple and type(u2) is float:
+        answer: Array = _one(stored_energy, {"u2": u2, "v": v}, constants)
+        return answer
     (w,) = _apply(_stored_energy, {"u2": u2, "v": v}, constants, ("w",), out)
     return w
 
@@ -434,12 +519,15 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
 
 
 def complementary_energy(
-    m2: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None
+    m2: Given | float, n: Given, constants: Constants, out: Array | None = None
 ) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
     m2 (...) in force times length, n (2, ...) in force (n1 and n3), with Q*^(1/2) finite.
     """
+    if out is None and type(n) is tuple and type(m2) is float:
+        answer: Array = _one(complementary_energy, {"m2": m2, "n": n}, constants)
+        return answer
     (w_star,) = _apply(_complementary_energy, {"m2": m2, "n": n}, constants, ("w_star",), out)
     return w_star
 
@@ -474,12 +562,24 @@ def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
         stiff[i, :i] = stiff[:i, i]
 
 
-def stiffness(u2: ArrayLike, v: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+def _stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
+    """`stiffness` of floats; None where it is left to arrays."""
+    whole = _loads_and_stiffness_at(u2, v, c)
+    return whole and whole[-1]
+
+
+def stiffness(u2: Given | float, v: Given, constants: Constants, out: Array | None = None) -> Array:
     """Stiffness d(m2, n)/d(u2, v), (3, 3, ...), symmetric positive definite (Section 3.4).
 
     u2 (...) in 1/length, v (2, ...) plain (v1 and v3), with Q < 1 (eq:strainlimiting).
     Rows and columns are ordered (m2, n1, n3) and (u2, v1, v3).
     """
+    if out is None and type(v) is tuple and type(u2) is float:
+        try:
+            answer: Array | None = _stiffness_at(u2, v, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(stiffness, {"u2": u2, "v": v}, constants)
     (stiff,) = _apply(_stiffness, {"u2": u2, "v": v}, constants, ("stiff",), out)
     return stiff
 
@@ -522,8 +622,38 @@ def _loads_and_stiffness(
         stiff[i, :i] = stiff[:i, i]
 
 
+def _loads_and_stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
+    """`loads_and_stiffness` of floats; None where it is left to arrays."""
+    v1, v3 = v
+    if not type(u2) is type(v1) is type(v3) is float:
+        return None
+    stretch = v3 - 1
+    kappa_2, lam_1, lam_3 = c.alpha * u2, c.zeta * v1, c.eta * stretch
+    q = kappa_2 * kappa_2 + lam_1 * lam_1 + lam_3 * lam_3
+    if not q < 1:
+        return None
+    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    growth, x = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST), sqrt(q if q > LEAST else LEAST)
+    depth = log1p(growth)
+    factor = c.gamma * exp(depth / c.p)
+    steep, bend, shear, extend = factor * growth, c.alpha * factor, c.zeta * factor, c.eta * factor
+    per_x = 1 / x
+    bend_per_x, shear_per_x, extend_per_x = c.alpha * per_x, c.zeta * per_x, c.eta * per_x
+    t2, t4, t6 = bend_per_x * kappa_2, lam_1 * shear_per_x, extend_per_x * lam_3
+    steep_1, steep_2, steep_3 = steep * t2, steep * t4, steep * t6
+    k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t2, steep_1 * t4, steep_1 * t6
+    k22, k23 = c.zeta * c.zeta * factor + steep_2 * t4, steep_2 * t6
+    k33 = c.eta * c.eta * factor + steep_3 * t6
+    stiff = (
+        (k11, k12, k13),
+        (k12, k22, k23),
+        (k13, k23, k33),
+    )
+    return bend * kappa_2, (lam_1 * shear, extend * lam_3), stiff
+
+
 def loads_and_stiffness(
-    u2: ArrayLike, v: ArrayLike, constants: Constants, out: Triple | None = None
+    u2: Given | float, v: Given, constants: Constants, out: Triple | None = None
 ) -> Triple:
     """Loads m2, n and stiffness d(m2, n)/d(u2, v) at the strains u2, v.
 
@@ -532,6 +662,12 @@ def loads_and_stiffness(
     and the stiffness (3, 3, ...).
     Rows and columns are ordered (m2, n1, n3) and (u2, v1, v3).
     """
+    if out is None and type(v) is tuple and type(u2) is float:
+        try:
+            answer: Triple | None = _loads_and_stiffness_at(u2, v, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(loads_and_stiffness, {"u2": u2, "v": v}, constants)
     m2, n, stiff = _apply(
         _loads_and_stiffness, {"u2": u2, "v": v}, constants, ("m2", "n", "stiff"), out
     )
@@ -590,13 +726,16 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
 
 
 def compliance(
-    m2: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None
+    m2: Given | float, n: Given, constants: Constants, out: Array | None = None
 ) -> Array:
     """Compliance d(u2, v)/d(m2, n), (3, 3, ...), the inverse of the stiffness at these loads.
 
     m2 (...) in force times length, n (2, ...) in force (n1 and n3), with Q*^(1/2) finite.
     Rows and columns are ordered (u2, v1, v3) and (m2, n1, n3).
     """
+    if out is None and type(n) is tuple and type(m2) is float:
+        answer: Array = _one(compliance, {"m2": m2, "n": n}, constants)
+        return answer
     (soft,) = _apply(_compliance, {"m2": m2, "n": n}, constants, ("soft",), out)
     return soft
 
@@ -623,7 +762,7 @@ def _strains_and_gap(
 
 
 def strains_and_gap(
-    m2: ArrayLike, n: ArrayLike, constants: Constants, out: Triple | None = None
+    m2: Given | float, n: Given, constants: Constants, out: Triple | None = None
 ) -> Triple:
     """Strains u2, v under the loads m2, n, and 1 - Q^(p/2).
 
@@ -631,6 +770,9 @@ def strains_and_gap(
     Answers u2 (...) in 1/length, v (2, ...) plain (v1 and v3), and the gap (...) plain: near the limit
     it says what the strains no longer can.
     """
+    if out is None and type(n) is tuple and type(m2) is float:
+        answer: Triple = _one(strains_and_gap, {"m2": m2, "n": n}, constants)
+        return answer
     u2, v, limit_gap = _apply(
         _strains_and_gap, {"m2": m2, "n": n}, constants, ("u2", "v", "limit_gap"), out
     )
@@ -662,7 +804,7 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
 
 
 def stiffness_at_loads(
-    m2: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None
+    m2: Given | float, n: Given, constants: Constants, out: Array | None = None
 ) -> Array:
     """Stiffness d(m2, n)/d(u2, v), (3, 3, ...), at the strains of these loads.
 
@@ -670,5 +812,8 @@ def stiffness_at_loads(
     Rows and columns are ordered (m2, n1, n3) and (u2, v1, v3).
     The inverse of the compliance; it holds where strains no longer tell the loads.
     """
+    if out is None and type(n) is tuple and type(m2) is float:
+        answer: Array = _one(stiffness_at_loads, {"m2": m2, "n": n}, constants)
+        return answer
     (stiff,) = _apply(_stiffness_at_loads, {"m2": m2, "n": n}, constants, ("stiff",), out)
     return stiff

@@ -26,6 +26,7 @@ import pytest
 from rodproof.codegen import generate, scene
 from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.live import groups, live
+from rodproof.codegen.targets import numpy_point
 from rodproof.codegen.targets.mpmath_target import Evaluator
 from rodproof.generated.scenes import full_rod as rod
 
@@ -37,12 +38,14 @@ KERNELS = {name: {k.name: k for k in generate.kernels(s)} for name, s in SCENES.
 MODULES = {name: import_module(f"rodproof.generated.scenes.{name}") for name in SCENES}
 NUMBA = pytest.mark.skipif(find_spec("numba") is None, reason="numba is not installed")
 WAYS = [(name, "arrays", ()) for name in SCENES]
+WAYS += [(name, "tuples", ()) for name in ("full_rod", "full_rod_p2", "dsdna", "thrust")]
 WAYS += [(name, "numba", NUMBA) for name, own in SCENES.items() if "numba" in own.targets]
 CALLS = [
     pytest.param(own, way, function, kind, id=f"{own}-{way}-{function}-{kind}", marks=marks)
     for own, way, marks in WAYS
     for function in KERNELS[own]
     if function not in ("loads_and_stiffness", "strains_and_gap")  # the parts: test_scenes.py
+    if way != "tuples" or function in numpy_point.OWN
     for kind in ("chiral edge", "moduli", "gamma")
     if kind != "chiral edge" or "iota" in inspect.signature(MODULES[own].Constants).parameters
 ]
@@ -75,8 +78,11 @@ class Call:
         parts = groups("uv" if self.kernel.limit else "mn", at)
         given = [[point[at.index(i)] for i in g.components] for g in parts]
         given = [value if g.head else value[0] for g, value in zip(parts, given, strict=True)]
+        if self.way == "tuples":
+            given = [tuple(value) if isinstance(value, list) else value for value in given]
         got = getattr(module, self.function)(*given, module.Constants(**constants))
-        got = got if isinstance(got, tuple) else (got,)
+        matrix = self.way == "tuples" and self.function == "stiffness"
+        got = got if isinstance(got, tuple) and not matrix else (np.asarray(got),)
         flat = np.concatenate([np.atleast_1d(g) for g in got])
         return flat[np.triu_indices(len(flat))] if flat.ndim == 2 else flat
 

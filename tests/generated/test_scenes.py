@@ -175,11 +175,12 @@ def test_a_single_load(component: int) -> None:
             full = np.zeros(6)
             full[component] = size
             with np.errstate(all="raise", under="ignore"):
-                soft = module.compliance(size, mine)
+                soft = module.compliance(np.array(size), mine)
+                assert type(module.compliance(size, mine)) is float
             want = full_rod.compliance(full[:3], full[3:], whole)[component, component]
             assert soft.shape == ()
             np.testing.assert_allclose(soft, want, rtol=2e-14)
-            got = by_component(own, "strains", module.strains(size, mine))
+            got = by_component(own, "strains", module.strains(np.array(size), mine))
             strains = full_rod.strains(full[:3], full[3:], whole)
             np.testing.assert_allclose(got, restricted(own, "strains", strains), rtol=2e-14)
 
