@@ -344,6 +344,14 @@ def test_the_page_names_what_is_bad(studied: tuple[Path, records.Study]) -> None
     assert "1 of " in text
 
 
+def test_the_page_in_the_report_is_what_its_data_give(root: Path) -> None:
+    folder = root / "docs" / "report"
+    study = records.load(folder / "integrators.json")
+    assert (folder / "integrators.md").read_text("utf-8") == page.page(study)
+    assert not study.settings.quick
+    assert study.problems == grid(quick=False)
+
+
 def test_the_grid_has_what_was_asked_for() -> None:
     rods = grid(quick=False)
     limited = [rod for rod in rods if not rod.linear]

@@ -180,7 +180,13 @@ implicit methods are no help. Under the strain-limiting law no load makes the ro
 
 def _calls(runs: list[Run], tolerance: float) -> str:
     (run,) = (run for run in runs if run.tolerance == tolerance)
-    return str(run.calls) if run.outcome == DONE else run.outcome
+    return (
+        str(run.calls)
+        if run.outcome == DONE
+        else STALLED
+        if run.outcome == SKIPPED
+        else run.outcome
+    )
 
 
 def _failures(study: Study) -> str:
@@ -210,8 +216,9 @@ def _fooled(study: Study) -> str:
         for run in worst
     ]
     done = sum(run.error is not None for run in study.runs)
-    text = f"""## Where success was said and the answer is wrong
+    text = f"""## Where success was said and the answer is far off
 
+The tolerance is that of one step; what the steps add up to is for the user to find out.
 {len(bad)} of {done} runs that ended well are off by more than {FOOLED} times their tolerance."""
     head = ["rod", "equations", "method", "tolerance", "error"]
     return f"{text} The worst:\n\n{_table(head, rows)}" if rows else text

@@ -19,6 +19,7 @@ COLOURS = dict(zip(METHODS, ("#0b6e99", "#c1272d", "#2e7d32", "#8e6bb5", "#8a8a8
 MARKERS = dict(zip(METHODS, ("s", "o", "^", "D", "v"), strict=True))
 #: Errors outside are drawn on the edge; above it a run without an answer.
 LEAST, NO_ANSWER, TOP = 1e-16, 1e2, 1e3
+LOST = "out of calls: x directors, + angles"
 #: The tolerance at which the two laws are compared.
 LAWS_AT = 1e-6
 
@@ -57,9 +58,9 @@ def figures(study: Study) -> list[tuple[str, str, list[list[Problem]]]]:
         found.append((f"start-{length:g}", f"length {length:g}, p = 3", rows))
         powers = sorted({rod.p for rod in limited})
         rows = [_by_thrust([r for r in limited if (r.p, r.tilt) == (p, 1)]) for p in powers]
-        thrusts = set.intersection(*({rod.thrust for rod in row} for row in rows))
+        thrusts = {rod.thrust for row in rows if {rod.p for rod in row} != {3.0} for rod in row}
         rows = [[rod for rod in row if rod.thrust in thrusts] for row in rows]
-        if len(rows) > 1 and thrusts:
+        if len(rows) > 1:
             found.append((f"power-{length:g}", f"length {length:g}, start at theta = 1", rows))
     return found
 
@@ -71,13 +72,18 @@ def _by_thrust(rods: list[Problem]) -> list[Problem]:
 
 def work_precision(study: Study, title: str, rows: list[list[Problem]]) -> Figure:
     """A figure of panels: error at the far end against time."""
-    height, width = len(rows), max(map(len, rows))
+    thrusts = sorted({rod.thrust for row in rows for rod in row})
+    height, width = len(rows), len(thrusts)
     size = (2.1 + 2.5 * width, 1.5 + 2.0 * height)
     figure = Figure(figsize=size, layout="constrained")
     grid = figure.subplots(height, width, sharex=True, sharey=True, squeeze=False)
     for axes, row in zip(grid, rows, strict=True):
-        for panel, rod in zip(axes, row, strict=True):
-            _panel(panel, study, rod)
+        of_thrust = {rod.thrust: rod for rod in row}
+        for panel, thrust in zip(axes, thrusts, strict=True):
+            if thrust in of_thrust:
+                _panel(panel, study, of_thrust[thrust])
+            else:
+                panel.set_visible(False)
     for panel in grid[-1]:
         panel.set_xlabel("time, ms")
     figure.supylabel("error at the far end")
@@ -112,10 +118,9 @@ def _panel(panel: Axes, study: Study, rod: Problem) -> None:
                 lost, [NO_ANSWER] * len(lost), ls="none", marker="x" if ours else "+", ms=5,
                 color=COLOURS[method],
             )  # fmt: skip
-    note = "angles refuse theta = 0" if refused else ""
     panel.text(
-        0.98, 0.965, note or "x, +: out of calls", transform=panel.transAxes, ha="right", va="top",
-        color="#a05050", fontsize=6.5,
+        0.02, 0.965, "angles refuse theta = 0; x: out of calls" if refused else LOST,
+        transform=panel.transAxes, ha="left", va="top", color="#a05050", fontsize=6.5,
     )  # fmt: skip
 
 
