@@ -62,6 +62,9 @@ def step_text(step: str, scene: Scene) -> str:
         "soften": "Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."
         if powers
         else "Strain over load, (gamma^2 + y^2)^(-1/2), by the ratio of gamma and y.",
+        "ordinary": "Strain over load where nothing is extreme, by (y/gamma)^p."
+        if powers
+        else "Strain over load where nothing is extreme, by (y/gamma)^2.",
         "stiffen": "Load over strain, gamma (1 - x^p)^(-1/p), by the growth x^p/(1 - x^p), x^2 = Q."
         if powers
         else "Load over strain, gamma (1 - Q)^(-1/2).",

@@ -15,7 +15,16 @@ import sympy as sp
 from flint import arb
 from sympy.codegen.cfunctions import expm1, log1p
 
-from rodproof.codegen.kernel import Assignment, Kernel, log_max, symbol, tiny
+from rodproof.codegen.kernel import (
+    Assignment,
+    Kernel,
+    least,
+    log_max,
+    most,
+    ordinarily,
+    symbol,
+    tiny,
+)
 from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.scene import CONSTANT_NAMES, LOAD_NAMES, Scene
 from rodproof.derivations.theory import constitutive as theory
@@ -57,7 +66,8 @@ def drop_guards(kernel: Kernel, scene: Scene) -> Kernel:
         square = known.of(symbol(settled.gauge.square))
         room = Interval.around(arb(smallest * 2.0**62), arb(2.0**-62 / smallest))
         if room.low <= square.low and square.high <= room.high:
-            settled = _without_gauge(settled)
+            short = _is_ordinary(kernel, known, square)
+            settled = _by_the_short_way(kernel, settled) if short else _without_gauge(settled)
     if settled.limit is not None:
         quantity = known.of(symbol(settled.limit.quantity))
         if quantity.high < MARGIN:
@@ -106,6 +116,22 @@ def _choose(node: sp.Expr, known: _Intervals) -> sp.Expr:
     return node
 
 
+def _is_ordinary(kernel: Kernel, known: _Intervals, square: Interval) -> bool:
+    """Whether the ranges keep every point where the short way holds."""
+    if kernel.ordinary is None:
+        return False
+    at = {least: symbol("least"), most: symbol("most")}
+    known.set({"least": square, "most": square})
+    sides = [[known.of(side.xreplace(at)) for side in r.args] for r in kernel.ordinary.within]
+    return all(low.below(high) for low, high in sides)
+
+
+def _by_the_short_way(kernel: Kernel, settled: Kernel) -> Kernel:
+    """The short way alone; what the long one would have dropped went too."""
+    dropped = (*settled.dropped, "overflow and underflow of squares")
+    return replace(ordinarily(kernel), dropped=dropped)
+
+
 def _without_gauge(kernel: Kernel) -> Kernel:
     """The radius as the root of the square, and the norm as the radius."""
     gauge = kernel.gauge
@@ -114,7 +140,7 @@ def _without_gauge(kernel: Kernel) -> Kernel:
     root = Assignment(gauge.radius, sp.sqrt(symbol(gauge.square)))
     plain = kernel.rewrite({symbol(gauge.norm): radius, symbol(gauge.radius): radius})
     dropped = (*kernel.dropped, "overflow and underflow of squares")
-    return replace(plain, body=(root, *plain.body), gauge=None, dropped=dropped)
+    return replace(plain, body=(root, *plain.body), gauge=None, dropped=dropped, ordinary=None)
 
 
 class _Intervals:
@@ -134,6 +160,10 @@ class _Intervals:
         self._defined = {a.name: a.expr for a in (*kernel.constants, *kernel.body)}
         square = "q_star" if kernel.inputs[0] in LOAD_NAMES else "q"
         self._defined |= dict.fromkeys(("size", "y", "x"), sp.sqrt(symbol(square)))
+
+    def set(self, intervals: Mapping[str, Interval]) -> None:
+        """What is known of further names."""
+        self._known |= intervals
 
     def of(self, expr: sp.Basic) -> Interval:
         """The interval of an expression."""

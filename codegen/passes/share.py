@@ -8,10 +8,10 @@ from dataclasses import replace
 import sympy as sp
 
 from rodproof.codegen.kernel import Assignment, Kernel, symbol
-from rodproof.derivations.symbols import CONSTANTS, alpha, beta, eta, zeta
+from rodproof.derivations.symbols import CONSTANTS, alpha, beta, eta, gamma, p, zeta
 
 #: A division per point becomes a product with one of these.
-MODULI = (alpha, beta, zeta, eta)
+DIVISORS = (alpha, beta, zeta, eta, gamma, p)
 
 
 def share(kernel: Kernel) -> Kernel:
@@ -24,16 +24,22 @@ def hoist_reciprocals(kernel: Kernel) -> Kernel:
     powers = sorted(
         {
             power
-            for expr in kernel.expressions()
+            for expr in (*kernel.expressions(), *_short(kernel))
             for power in expr.atoms(sp.Pow)
-            if power.base in MODULI and power.exp.is_negative
+            if power.base in DIVISORS and power.exp.is_negative
         },
         key=sp.default_sort_key,
     )
     changed = {power: symbol(f"per_{power.base}") ** (-power.exp) for power in powers}
-    bases = sorted({power.base for power in powers}, key=MODULI.index)
+    bases = sorted({power.base for power in powers}, key=DIVISORS.index)
     added = tuple(Assignment(f"per_{base}", 1 / base) for base in bases)
     return replace(kernel.rewrite(changed), constants=(*kernel.constants, *added))
+
+
+def _short(kernel: Kernel) -> list[sp.Basic]:
+    """What the short way holds."""
+    way = kernel.ordinary
+    return [*way.within, *(a.expr for a in way.body)] if way else []
 
 
 def drop_aliases(kernel: Kernel) -> Kernel:
@@ -43,9 +49,21 @@ def drop_aliases(kernel: Kernel) -> Kernel:
         a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol and a.name not in kept_names
     }
     if not aliases:
-        return kernel
+        return _drop_ordinary_aliases(kernel)
     kept = tuple(a for a in kernel.body if a.symbol not in aliases)
     return drop_aliases(replace(kernel, body=kept).rewrite(aliases))
+
+
+def _drop_ordinary_aliases(kernel: Kernel) -> Kernel:
+    """The same for the short way."""
+    way = kernel.ordinary
+    alias = next((a for a in way.body if a.expr.is_Symbol), None) if way else None
+    if way is None or alias is None:
+        return kernel
+    kept = replace(way, body=tuple(a for a in way.body if a != alias))
+    return _drop_ordinary_aliases(
+        replace(kernel, ordinary=kept).rewrite({alias.symbol: alias.expr})
+    )
 
 
 def merge_equal(kernel: Kernel) -> Kernel:

@@ -93,6 +93,10 @@ def drop_dead(kernel: Kernel) -> Kernel:
         needed.add(kernel.limit.quantity)
     if kernel.gauge is not None:
         needed.add(kernel.gauge.square)
+    way = kernel.ordinary
+    short = [*way.within, *(a.expr for a in way.body)] if way else []
+    own = {a.name for a in way.body} if way else set()
+    needed |= {s.name for expr in short for s in expr.free_symbols} - own
     defined = {a.name: a for a in (*kernel.constants, *kernel.body)}
     todo = sorted(needed)
     while todo:

@@ -15,6 +15,7 @@ import sympy as sp
 from rodproof.codegen.kernel import Assignment, Kernel, KernelError, Output, symbol
 from rodproof.codegen.passes.order import order
 from rodproof.codegen.scene import LOAD_NAMES, Scene
+from rodproof.codegen.targets import numpy_template as template
 from rodproof.codegen.targets.calls import Call, calls
 from rodproof.codegen.targets.printer import Printer
 from rodproof.codegen.targets.rows import Printed, last_reads, print_calls
@@ -166,16 +167,22 @@ def body(kernel: Kernel, steps: dict[str, Step], printer: Printer, text: Functio
     """The private function that works on one block."""
     packed = _packed(kernel, text)
     own = [steps[name] for name in dict.fromkeys(a.step for a in kernel.body if a.step)]
-    work = _calls(kernel, printer, packed, {name for step in own for name in step.inputs})
+    known = {name for step in own for name in step.inputs}
+    known |= {kernel.ordinary.result} if kernel.ordinary else set()
+    work = _calls(kernel, printer, packed, known)
     needed = last_reads(work)
     called, held, base, most = list[str](), dict[str, int](), 0, 0
     for step in own:
-        called += _before(step, kernel, printer)
-        called += _call(step, kernel, base)
+        if kernel.ordinary is None:
+            called += _before(step, kernel, printer)
+            called += _call(step, kernel, base)
         most = max(most, base + step.printed.rows)
         results = {name: base + row for name, row in step.printed.row.items()}
         held |= {name: results[name] for name in step.results if name in needed}
         base += step.kept
+    if kernel.ordinary:
+        called = _two_ways(kernel, own, printer)
+        held[kernel.ordinary.result] = own[0].kept + own[1].printed.row[_radial(kernel)]
     places = {_place(o, packed): _place(o, packed) for o in kernel.outputs}
     dyad = kernel.dyad
     vector = {name: f"{name[0]}[{k}]" for k, name in enumerate(dyad.vector)} if dyad else {}
@@ -204,6 +211,68 @@ def body(kernel: Kernel, steps: dict[str, Step], printer: Printer, text: Functio
     opening += [f'{INDENT}"""{text.equation}"""']
     rows = max(most, printed.rows) - first + SPOKEN_FOR
     return Body("\n".join([*opening, *(INDENT + line for line in lines)]), rows)
+
+
+def _radial(kernel: Kernel) -> str:
+    """What the long way to the result ends in where there is no scale."""
+    way, gauge = kernel.ordinary, kernel.gauge
+    assert way is not None and gauge is not None
+    (long,) = (a.expr for a in kernel.body if a.name == way.result)
+    symbols = {s.name: s for s in long.free_symbols}
+    return str(long.xreplace({symbols[gauge.norm]: symbols[gauge.radius]}))
+
+
+def _two_ways(kernel: Kernel, own: list[Step], printer: Printer) -> list[str]:
+    """The form, and then the short way where it holds at every point, else the steps."""
+    way, gauge, (form, radial) = kernel.ordinary, kernel.gauge, own
+    assert way is not None and gauge is not None
+    needed = _used_outside(kernel, form.name)
+    names = ", ".join(name if name in needed else "_" for name in form.results)
+    given = rows_name(form.inputs)
+    (long,) = (a for a in kernel.body if a.name == way.result)
+    (call,) = _unscaled(long, kernel, printer)
+    return [
+        'with np.errstate(over="ignore", invalid="ignore"):',
+        f"{INDENT}form = _{form.name}({given}, c, s)",
+        f"{names} = form",
+        f"if _is_ordinary({gauge.square}, c):",
+        f"{INDENT}{way.result} = _ordinary_{way.result}({gauge.square}, c, s[{form.kept}:])",
+        "else:",
+        f"{INDENT}_, {gauge.norm}, {gauge.radius}, _ = _balanced(_{form.name}, {given}, c, s, form)",
+        *(INDENT + line for line in _call(radial, kernel, form.kept)),
+        f"{INDENT}{way.result} = {call.operands[0]}",
+    ]
+
+
+def ordinary_functions(
+    kernels: tuple[Kernel, ...], steps: dict[str, Step], printer: Printer, scene: Scene
+) -> list[str]:
+    """The short way of the one kernel that has it, as a function, and where it holds as another."""
+    found = [kernel for kernel in kernels if kernel.ordinary]
+    if not found:
+        return []
+    (kernel,) = found
+    way, gauge = kernel.ordinary, kernel.gauge
+    assert way is not None and gauge is not None
+    radial = next(steps[a.step] for a in kernel.body if a.step not in ("", gauge.step))
+    work = [call for a in way.body for call in calls(a.name, a.expr, printer)]
+    row = radial.printed.row[_radial(kernel)]
+    printed = print_calls(work, {}, fixed={way.result: row}, kept=[way.result])
+    lines = [f"def _ordinary_{way.result}({gauge.square}: Array, c: Constants, s: Rows) -> Array:"]
+    lines += [f'{INDENT}"""{step_text("ordinary", scene)}"""']
+    lines += [INDENT + line for line in printed.lines] + [f"{INDENT}return {way.result}"]
+    used = {s.name for relation in way.within for s in relation.free_symbols}
+    limits = sorted({"tiny", "log_max"} & used)
+    tests = [" < ".join(printer.text(side) for side in r.args) for r in way.within]
+    tests = [tests[0], *(f"and {test}" for test in tests[1:])]
+    within = "\n".join(["(", *(INDENT * 2 + test for test in tests), f"{INDENT})"])
+    holds = template.ORDINARY.substitute(
+        square=gauge.square,
+        result=way.result,
+        limits="\n".join(f"{INDENT}{n} = {n.upper()}[{gauge.square}.dtype]" for n in limits),
+        within=within,
+    )
+    return [holds, "\n".join(lines)]
 
 
 def _before(step: Step, kernel: Kernel, printer: Printer) -> list[str]:

@@ -10,7 +10,7 @@ from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.scene import CONSTANT_NAMES, MODULI, Scene
 from rodproof.codegen.targets import numpy_template as template
-from rodproof.codegen.targets.printer import Printer
+from rodproof.codegen.targets.printer import Printer, wrapped
 from rodproof.codegen.texts import NUMBERS
 
 #: Units and what they are, in the order in which they are said.
@@ -100,7 +100,8 @@ def _exact(names: list[str]) -> str:
     line = f"        {', '.join(names)} = (Fraction(v) for v in ({given}))"
     if len(line) <= 100:
         return line + "\n"
-    return f"        exact = (Fraction(v) for v in ({given}))\n        {', '.join(names)} = exact\n"
+    lines = wrapped("exact = (", ["Fraction(v)", f"for v in ({given})"], ")", " ", " " * 8)
+    return "\n".join([*lines, f"        {', '.join(names)} = exact\n"])
 
 
 def _doc(used: tuple[str, ...]) -> str:

@@ -19,6 +19,7 @@ from rodproof.codegen.targets.numpy_body import (
     Step,
     body,
     form_again,
+    ordinary_functions,
     spelling,
     step_function,
     steps_of,
@@ -61,6 +62,7 @@ def print_module(
         *(step_function(step, scene) for step in steps.values()),
     ]
     parts += [template.BALANCED] if any(kernel.gauge for kernel in kernels) else []
+    parts += ordinary_functions(kernels, steps, printer, scene)
     parts += [template.WORK_SHARE] if needs_work_share(kernels) else []
     if limited:
         parts.append(template.RAISE if raising else template.NAN)
@@ -91,6 +93,8 @@ def _imports(
     functions = [name for name in one.FUNCTIONS if re.search(rf"(?<!\w){name}\(", single)]
     standard += [f"from math import {', '.join(functions)}"] if functions else []
     used = {s.name for kernel in kernels for e in kernel.expressions() for s in e.free_symbols}
+    ways = [kernel.ordinary for kernel in kernels if kernel.ordinary]
+    used |= {s.name for way in ways for relation in way.within for s in relation.free_symbols}
     guards = [template.LOG_MAX] if "log_max" in used else []
     if guards or "tiny" in used or any(kernel.gauge for kernel in kernels):
         guards = [template.TINY, *guards]

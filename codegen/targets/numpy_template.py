@@ -163,15 +163,19 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
+    form: Callable[[Rows, Constants, Rows], Rows],
+    inputs: Rows,
+    c: Constants,
+    s: Rows,
+    known: Rows = (),
 ) -> tuple[Rows, Array, Array, Array]:
-    """Values of ``form``, the root of its last one, and the radius and its square.
+    """Values of ``form`` (``known``, if they are), the root of the last, the radius, its square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, a factor
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c, s)
+        *values, square = known or form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
             size = np.sqrt(square, out=s[-1])
@@ -184,6 +188,14 @@ def _balanced(
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
 '''
+
+ORDINARY = Template('''\
+def _is_ordinary($square: Array, c: Constants) -> bool:
+    """Whether `_ordinary_$result` holds at every point; nan is not ordinary."""
+$limits
+    least, most = float($square.min()), float($square.max())
+    return $within
+''')
 
 RAISE = '''\
 class _PastLimit(Exception):

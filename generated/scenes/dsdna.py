@@ -18,15 +18,15 @@ in plain Python. They agree with the arrays' answers within 8 ulps of the larges
 loads and stiffness near the limit, as far as the strains determine them.
 
 Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                41    4    0   14
-    loads                  33    4    0   14
-    stored_energy          27    4    1   11
-    complementary_energy   36    6    1   11
-    stiffness              71    4    0   21
-    loads_and_stiffness    78    4    0   24
-    compliance            109    4    0   31
-    strains_and_gap        45    4    0   15
-    stiffness_at_loads     73    4    0   18
+    strains                34    6    0   14
+    loads                  32    4    0   14
+    stored_energy          26    4    1   11
+    complementary_energy   35    6    1   11
+    stiffness              70    4    0   21
+    loads_and_stiffness    77    4    0   24
+    compliance            108    4    0   31
+    strains_and_gap        44    4    0   15
+    stiffness_at_loads     71    4    0   18
 """
 
 from __future__ import annotations
@@ -82,6 +82,8 @@ class Constants:
     per_alpha: float = field(init=False, repr=False, compare=False)
     per_beta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
+    per_p: float = field(init=False, repr=False, compare=False)
     per_gap: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -91,7 +93,8 @@ class Constants:
                 rule = "a finite number" if name == "iota" else "positive and finite"
                 raise ValueError(f"Constants: {name} must be {rule}, not {value}")
             object.__setattr__(self, name, value)
-        alpha, beta, eta, iota = (Fraction(v) for v in (self.alpha, self.beta, self.eta, self.iota))
+        exact = (Fraction(v) for v in (self.alpha, self.beta, self.eta, self.iota, self.gamma, self.p))
+        alpha, beta, eta, iota, gamma, p = exact
         if not beta**2 * eta**2 - iota**2 > 0:
             raise ValueError(
                 "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
@@ -105,6 +108,8 @@ class Constants:
             "per_alpha": 1 / alpha,
             "per_beta": 1 / beta,
             "per_eta": 1 / eta,
+            "per_gamma": 1 / gamma,
+            "per_p": 1 / p,
             "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
         }
         for name, ratio in derived.items():  # exact, then rounded once
@@ -192,7 +197,7 @@ def _soften(y: Array, c: Constants, s: Rows) -> Rows:
     power *= c.p
     np.exp(power, out=power)
     factor = np.log1p(power, out=s[3])
-    factor /= -c.p
+    factor *= -c.per_p
     np.exp(factor, out=factor)
     factor /= larger
     return ratio, power, factor
@@ -228,7 +233,7 @@ def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
     depth = np.log1p(growth, out=s[1])
-    factor = np.divide(depth, c.p, out=s[2])
+    factor = np.multiply(c.per_p, depth, out=s[2])
     np.exp(factor, out=factor)
     factor *= c.gamma
     return growth, depth, factor
@@ -237,7 +242,7 @@ def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
 def _harden(y: Array, c: Constants, s: Rows) -> Rows:
     """Load over strain, (gamma^p + y^p)^(1/p), after its rise (y/gamma)^(p/2)."""
     tiny = TINY[y.dtype]
-    rise = np.divide(y, c.gamma, out=s[0])
+    rise = np.multiply(c.per_gamma, y, out=s[0])
     np.maximum(rise, tiny, out=rise)
     np.log(rise, out=rise)
     rise *= 0.5 * c.p
@@ -247,7 +252,7 @@ def _harden(y: Array, c: Constants, s: Rows) -> Rows:
     np.minimum(half, rise, out=half)
     power = np.square(half, out=s[1])
     factor = np.log1p(power, out=s[1])
-    factor /= c.p
+    factor *= c.per_p
     np.exp(factor, out=factor)
     factor *= np.maximum(y, c.gamma, out=s[2])
     return rise, factor
@@ -260,15 +265,19 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
+    form: Callable[[Rows, Constants, Rows], Rows],
+    inputs: Rows,
+    c: Constants,
+    s: Rows,
+    known: Rows = (),
 ) -> tuple[Rows, Array, Array, Array]:
-    """Values of ``form``, the root of its last one, and the radius and its square.
+    """Values of ``form`` (``known``, if they are), the root of the last, the radius, its square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, a factor
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c, s)
+        *values, square = known or form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
             size = np.sqrt(square, out=s[-1])
@@ -280,6 +289,34 @@ def _balanced(
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
+
+
+def _is_ordinary(q_star: Array, c: Constants) -> bool:
+    """Whether `_ordinary_reach` holds at every point; nan is not ordinary."""
+    log_max = LOG_MAX[q_star.dtype]
+    tiny = TINY[q_star.dtype]
+    least, most = float(q_star.min()), float(q_star.max())
+    return (
+        2**60 * tiny < least
+        and 2**60 * tiny * most < 1
+        and c.gamma * tiny < c.per_gamma * least
+        and c.per_gamma * most < 64 * c.gamma
+        and 3 * c.p < log_max
+    )
+
+
+def _ordinary_reach(q_star: Array, c: Constants, s: Rows) -> Array:
+    """Strain over load where nothing is extreme, by (y/gamma)^p."""
+    scaled = np.multiply(c.per_gamma, q_star, out=s[0])
+    overload = np.multiply(c.per_gamma, scaled, out=s[0])
+    power = np.log(overload, out=s[0])
+    power *= 0.5 * c.p
+    np.exp(power, out=power)
+    reach = np.log1p(power, out=s[3])
+    reach *= -c.per_p
+    np.exp(reach, out=reach)
+    reach *= c.per_gamma
+    return reach
 
 
 def _work_share(depth: Array, c: Constants) -> Array:
@@ -437,10 +474,15 @@ def _numbers(array: Array) -> Any:
 def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> None:
     """(u, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n3)."""
     s = [*u, v3, *work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
-    mu_1, mu_2, _, dilatation, twist, _ = values
-    *_, factor = _soften(y, c, s[7:])
-    reach = factor if size is y else factor * y / size
+    with np.errstate(over="ignore", invalid="ignore"):
+        form = _reduce_loads(loads, c, s)
+    mu_1, mu_2, _, dilatation, twist, _, q_star = form
+    if _is_ordinary(q_star, c):
+        reach = _ordinary_reach(q_star, c, s[7:])
+    else:
+        _, size, y, _ = _balanced(_reduce_loads, loads, c, s, form)
+        *_, factor = _soften(y, c, s[7:])
+        reach = factor if size is y else factor * y / size
     bend = np.multiply(c.per_alpha, reach, out=s[4])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])

@@ -20,7 +20,7 @@ in plain Python. They agree with the arrays' answers within 8 ulps of the larges
 loads and stiffness near the limit, as far as the strains determine them.
 
 Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                48    0    0   17
+    strains                40    0    0   15
     loads                  39    0    0   17
     stored_energy          30    0    0   12
     complementary_energy   37    0    0   12
@@ -28,7 +28,7 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     loads_and_stiffness   117    0    0   31
     compliance            159    0    0   39
     strains_and_gap        52    0    0   18
-    stiffness_at_loads    107    0    0   23
+    stiffness_at_loads    106    0    0   23
 """
 
 from __future__ import annotations
@@ -83,6 +83,7 @@ class Constants:
     per_beta: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
     per_gap: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -92,8 +93,8 @@ class Constants:
                 rule = "a finite number" if name == "iota" else "positive and finite"
                 raise ValueError(f"Constants: {name} must be {rule}, not {value}")
             object.__setattr__(self, name, value)
-        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota))
-        alpha, beta, zeta, eta, iota = exact
+        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota, self.gamma))
+        alpha, beta, zeta, eta, iota, gamma = exact
         if not beta**2 * eta**2 - iota**2 > 0:
             raise ValueError(
                 "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
@@ -108,6 +109,7 @@ class Constants:
             "per_beta": 1 / beta,
             "per_zeta": 1 / zeta,
             "per_eta": 1 / eta,
+            "per_gamma": 1 / gamma,
             "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
         }
         for name, ratio in derived.items():  # exact, then rounded once
@@ -186,7 +188,7 @@ def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
 def _harden(y: Array, c: Constants, s: Rows) -> Rows:
     """Load over strain, (gamma^2 + y^2)^(1/2), after its rise y/gamma."""
     tiny = TINY[y.dtype]
-    rise = np.divide(y, c.gamma, out=s[0])
+    rise = np.multiply(c.per_gamma, y, out=s[0])
     half = np.maximum(rise, tiny, out=s[1])
     np.divide(1, half, out=half)
     np.minimum(half, rise, out=half)
@@ -204,15 +206,19 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
+    form: Callable[[Rows, Constants, Rows], Rows],
+    inputs: Rows,
+    c: Constants,
+    s: Rows,
+    known: Rows = (),
 ) -> tuple[Rows, Array, Array, Array]:
-    """Values of ``form``, the root of its last one, and the radius and its square.
+    """Values of ``form`` (``known``, if they are), the root of the last, the radius, its square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, a factor
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c, s)
+        *values, square = known or form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
             size = np.sqrt(square, out=s[-1])
@@ -224,6 +230,28 @@ def _balanced(
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
+
+
+def _is_ordinary(q_star: Array, c: Constants) -> bool:
+    """Whether `_ordinary_reach` holds at every point; nan is not ordinary."""
+    tiny = TINY[q_star.dtype]
+    least, most = float(q_star.min()), float(q_star.max())
+    return (
+        2**60 * tiny < least
+        and 2**60 * tiny * most < 1
+        and c.gamma * tiny < c.per_gamma * least
+        and 2**60 * c.per_gamma * tiny * most < c.gamma
+    )
+
+
+def _ordinary_reach(q_star: Array, c: Constants, s: Rows) -> Array:
+    """Strain over load where nothing is extreme, by (y/gamma)^2."""
+    scaled = np.multiply(c.per_gamma, q_star, out=s[1])
+    overload = np.multiply(c.per_gamma, scaled, out=s[1])
+    reach = np.add(overload, 1, out=s[0])
+    np.sqrt(reach, out=reach)
+    np.divide(c.per_gamma, reach, out=reach)
+    return reach
 
 
 class _PastLimit(Exception):
@@ -351,10 +379,15 @@ def _numbers(array: Array) -> Any:
 def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None:
     """(u, v - e3) = (gamma^2 + Q*)^(-1/2) K^-1 (m, n)."""
     s = [*u, *v, *work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
-    mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
-    *_, factor = _soften(y, c, s[9:])
-    reach = factor if size is y else factor * y / size
+    with np.errstate(over="ignore", invalid="ignore"):
+        form = _reduce_loads(loads, c, s)
+    mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _, q_star = form
+    if _is_ordinary(q_star, c):
+        reach = _ordinary_reach(q_star, c, s[9:])
+    else:
+        _, size, y, _ = _balanced(_reduce_loads, loads, c, s, form)
+        *_, factor = _soften(y, c, s[9:])
+        reach = factor if size is y else factor * y / size
     bend = np.multiply(c.per_alpha, reach, out=s[6])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])

@@ -18,15 +18,15 @@ in plain Python. They agree with the arrays' answers within 8 ulps of the larges
 loads and stiffness near the limit, as far as the strains determine them.
 
 Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                30    4    0   12
-    loads                  23    4    0   11
-    stored_energy          21    4    1    9
-    complementary_energy   29    6    1   10
-    stiffness              48    4    0   17
-    loads_and_stiffness    54    4    0   20
-    compliance             65    4    0   22
-    strains_and_gap        34    4    0   13
-    stiffness_at_loads     51    4    0   15
+    strains                23    6    0   12
+    loads                  22    4    0   11
+    stored_energy          20    4    1    9
+    complementary_energy   28    6    1   10
+    stiffness              47    4    0   17
+    loads_and_stiffness    53    4    0   20
+    compliance             64    4    0   22
+    strains_and_gap        33    4    0   13
+    stiffness_at_loads     49    4    0   15
 """
 
 from __future__ import annotations
@@ -76,6 +76,8 @@ class Constants:
     per_alpha: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
+    per_p: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("alpha", "zeta", "eta", "gamma", "p"):
@@ -83,11 +85,14 @@ class Constants:
             if not 0 < value < math.inf:
                 raise ValueError(f"Constants: {name} must be positive and finite, not {value}")
             object.__setattr__(self, name, value)
-        alpha, zeta, eta = (Fraction(v) for v in (self.alpha, self.zeta, self.eta))
+        exact = (Fraction(v) for v in (self.alpha, self.zeta, self.eta, self.gamma, self.p))
+        alpha, zeta, eta, gamma, p = exact
         derived = {
             "per_alpha": 1 / alpha,
             "per_zeta": 1 / zeta,
             "per_eta": 1 / eta,
+            "per_gamma": 1 / gamma,
+            "per_p": 1 / p,
         }
         for name, ratio in derived.items():  # exact, then rounded once
             if abs(ratio) >= 2**1023:
@@ -142,7 +147,7 @@ def _soften(y: Array, c: Constants, s: Rows) -> Rows:
     power *= c.p
     np.exp(power, out=power)
     factor = np.log1p(power, out=s[3])
-    factor /= -c.p
+    factor *= -c.per_p
     np.exp(factor, out=factor)
     factor /= larger
     return ratio, power, factor
@@ -171,7 +176,7 @@ def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
     depth = np.log1p(growth, out=s[1])
-    factor = np.divide(depth, c.p, out=s[2])
+    factor = np.multiply(c.per_p, depth, out=s[2])
     np.exp(factor, out=factor)
     factor *= c.gamma
     return growth, depth, factor
@@ -180,7 +185,7 @@ def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
 def _harden(y: Array, c: Constants, s: Rows) -> Rows:
     """Load over strain, (gamma^p + y^p)^(1/p), after its rise (y/gamma)^(p/2)."""
     tiny = TINY[y.dtype]
-    rise = np.divide(y, c.gamma, out=s[0])
+    rise = np.multiply(c.per_gamma, y, out=s[0])
     np.maximum(rise, tiny, out=rise)
     np.log(rise, out=rise)
     rise *= 0.5 * c.p
@@ -190,7 +195,7 @@ def _harden(y: Array, c: Constants, s: Rows) -> Rows:
     np.minimum(half, rise, out=half)
     power = np.square(half, out=s[1])
     factor = np.log1p(power, out=s[1])
-    factor /= c.p
+    factor *= c.per_p
     np.exp(factor, out=factor)
     factor *= np.maximum(y, c.gamma, out=s[2])
     return rise, factor
@@ -203,15 +208,19 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
+    form: Callable[[Rows, Constants, Rows], Rows],
+    inputs: Rows,
+    c: Constants,
+    s: Rows,
+    known: Rows = (),
 ) -> tuple[Rows, Array, Array, Array]:
-    """Values of ``form``, the root of its last one, and the radius and its square.
+    """Values of ``form`` (``known``, if they are), the root of the last, the radius, its square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, a factor
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c, s)
+        *values, square = known or form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
             size = np.sqrt(square, out=s[-1])
@@ -223,6 +232,34 @@ def _balanced(
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
+
+
+def _is_ordinary(q_star: Array, c: Constants) -> bool:
+    """Whether `_ordinary_reach` holds at every point; nan is not ordinary."""
+    log_max = LOG_MAX[q_star.dtype]
+    tiny = TINY[q_star.dtype]
+    least, most = float(q_star.min()), float(q_star.max())
+    return (
+        2**60 * tiny < least
+        and 2**60 * tiny * most < 1
+        and c.gamma * tiny < c.per_gamma * least
+        and c.per_gamma * most < 64 * c.gamma
+        and 3 * c.p < log_max
+    )
+
+
+def _ordinary_reach(q_star: Array, c: Constants, s: Rows) -> Array:
+    """Strain over load where nothing is extreme, by (y/gamma)^p."""
+    scaled = np.multiply(c.per_gamma, q_star, out=s[0])
+    overload = np.multiply(c.per_gamma, scaled, out=s[0])
+    power = np.log(overload, out=s[0])
+    power *= 0.5 * c.p
+    np.exp(power, out=power)
+    reach = np.log1p(power, out=s[3])
+    reach *= -c.per_p
+    np.exp(reach, out=reach)
+    reach *= c.per_gamma
+    return reach
 
 
 def _work_share(depth: Array, c: Constants) -> Array:
@@ -380,10 +417,15 @@ def _numbers(array: Array) -> Any:
 def _strains(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> None:
     """(u2, v1, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m2, n1, n3)."""
     s = [u2, *v, *work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
-    mu_2, nu_1, nu_3 = values
-    *_, factor = _soften(y, c, s[4:])
-    reach = factor if size is y else factor * y / size
+    with np.errstate(over="ignore", invalid="ignore"):
+        form = _reduce_loads(loads, c, s)
+    mu_2, nu_1, nu_3, q_star = form
+    if _is_ordinary(q_star, c):
+        reach = _ordinary_reach(q_star, c, s[4:])
+    else:
+        _, size, y, _ = _balanced(_reduce_loads, loads, c, s, form)
+        *_, factor = _soften(y, c, s[4:])
+        reach = factor if size is y else factor * y / size
     bend = np.multiply(c.per_alpha, reach, out=s[3])
     np.multiply(bend, mu_2, out=u2)
     shear = np.multiply(c.per_zeta, reach, out=s[3])

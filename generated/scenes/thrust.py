@@ -11,15 +11,11 @@ eq:strainlimiting proved.
 
 Domain: loads with finite Q*^(1/2).
 
-One point: tuples of numbers (a float for a single component) are answered with tuples of floats,
-in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
-loads and stiffness near the limit, as far as the strains determine them.
-
 Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                34    4    0   13
-    complementary_energy   30    6    1   10
-    compliance             68    4    0   23
-    strains_and_gap        38    4    0   14
+    strains                27    6    0   13
+    complementary_energy   29    6    1   10
+    compliance             67    4    0   23
+    strains_and_gap        37    4    0   14
 """
 
 from __future__ import annotations
@@ -29,7 +25,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from math import exp, log1p, sqrt
 from typing import Any
 
 import numpy as np
@@ -39,14 +34,12 @@ Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
 Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
-Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
-Inputs = dict[str, Given]
+Inputs = dict[str, ArrayLike]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
 ROWS = 14  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
-LEAST, LOG_MOST = 2.0**-1022, 0.99 * 1022 * math.log(2)  # for one point, in doubles
-LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
 HEADS = {"n": (3,), "u3": (), "v": (3,), "w_star": (), "soft": (3, 3), "limit_gap": ()}
 
 
@@ -70,6 +63,8 @@ class Constants:
     per_beta: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
+    per_p: float = field(init=False, repr=False, compare=False)
     per_gap: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -79,7 +74,8 @@ class Constants:
                 rule = "a finite number" if name == "iota" else "positive and finite"
                 raise ValueError(f"Constants: {name} must be {rule}, not {value}")
             object.__setattr__(self, name, value)
-        beta, zeta, eta, iota = (Fraction(v) for v in (self.beta, self.zeta, self.eta, self.iota))
+        exact = (Fraction(v) for v in (self.beta, self.zeta, self.eta, self.iota, self.gamma, self.p))
+        beta, zeta, eta, iota, gamma, p = exact
         if not beta**2 * eta**2 - iota**2 > 0:
             raise ValueError(
                 "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
@@ -92,6 +88,8 @@ class Constants:
             "per_beta": 1 / beta,
             "per_zeta": 1 / zeta,
             "per_eta": 1 / eta,
+            "per_gamma": 1 / gamma,
+            "per_p": 1 / p,
             "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
         }
         for name, ratio in derived.items():  # exact, then rounded once
@@ -149,7 +147,7 @@ def _soften(y: Array, c: Constants, s: Rows) -> Rows:
     power *= c.p
     np.exp(power, out=power)
     factor = np.log1p(power, out=s[3])
-    factor /= -c.p
+    factor *= -c.per_p
     np.exp(factor, out=factor)
     factor /= larger
     return ratio, power, factor
@@ -162,15 +160,19 @@ def _exponent(rows: Rows) -> Array:
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows], inputs: Rows, c: Constants, s: Rows
+    form: Callable[[Rows, Constants, Rows], Rows],
+    inputs: Rows,
+    c: Constants,
+    s: Rows,
+    known: Rows = (),
 ) -> tuple[Rows, Array, Array, Array]:
-    """Values of ``form``, the root of its last one, and the radius and its square.
+    """Values of ``form`` (``known``, if they are), the root of the last, the radius, its square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, a factor
     that the values and their root share and that later cancels; the radius is free of it.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = form(inputs, c, s)
+        *values, square = known or form(inputs, c, s)
         tiny = TINY[square.dtype]
         if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
             size = np.sqrt(square, out=s[-1])
@@ -182,6 +184,34 @@ def _balanced(
         size = np.sqrt(square)
         radius = np.ldexp(size, power)
         return values, np.maximum(size, tiny), radius, radius * radius
+
+
+def _is_ordinary(q_star: Array, c: Constants) -> bool:
+    """Whether `_ordinary_reach` holds at every point; nan is not ordinary."""
+    log_max = LOG_MAX[q_star.dtype]
+    tiny = TINY[q_star.dtype]
+    least, most = float(q_star.min()), float(q_star.max())
+    return (
+        2**60 * tiny < least
+        and 2**60 * tiny * most < 1
+        and c.gamma * tiny < c.per_gamma * least
+        and c.per_gamma * most < 64 * c.gamma
+        and 3 * c.p < log_max
+    )
+
+
+def _ordinary_reach(q_star: Array, c: Constants, s: Rows) -> Array:
+    """Strain over load where nothing is extreme, by (y/gamma)^p."""
+    scaled = np.multiply(c.per_gamma, q_star, out=s[0])
+    overload = np.multiply(c.per_gamma, scaled, out=s[0])
+    power = np.log(overload, out=s[0])
+    power *= 0.5 * c.p
+    np.exp(power, out=power)
+    reach = np.log1p(power, out=s[3])
+    reach *= -c.per_p
+    np.exp(reach, out=reach)
+    reach *= c.per_gamma
+    return reach
 
 
 def _work_share(depth: Array, c: Constants) -> Array:
@@ -260,8 +290,6 @@ def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
     """Runs ``body`` over blocks of points, straight into the results where that is safe."""
-    if out is not None and all(type(value) is tuple for value in inputs.values()):
-        raise ValueError("out is for arrays; tuples of numbers are answered with new tuples")
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
@@ -287,36 +315,18 @@ def _apply(
     return results
 
 
-def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
-    """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
-    arrays, shape = _arguments(inputs)
-    if shape:  # tuples of arrays
-        return law(*map(np.asarray, inputs.values()), c)
-    floats = [a.astype(float).tolist() for a in arrays]
-    again = tuple(tuple(f) if isinstance(f, list) else f for f in floats)
-    if repr(again) != repr((*inputs.values(),)):
-        return law(*again, c)
-    answer = law(*map(np.array, floats), c)
-    if not isinstance(answer, tuple):
-        return _numbers(answer)
-    return tuple(_numbers(array) for array in answer)
-
-
-def _numbers(array: Array) -> Any:
-    """The array as a float, a tuple of floats, or a tuple of rows."""
-    values = array.astype(float).tolist()
-    if array.ndim == 2:
-        return tuple(map(tuple, values))
-    return tuple(values) if array.ndim else values
-
-
 def _strains(loads: Rows, c: Constants, work: Array, u3: Array, v: Array) -> None:
     """(u3, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 n."""
     s = [u3, *v, *work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
-    nu_1, nu_2, dilatation, twist = values
-    *_, factor = _soften(y, c, s[5:])
-    reach = factor if size is y else factor * y / size
+    with np.errstate(over="ignore", invalid="ignore"):
+        form = _reduce_loads(loads, c, s)
+    nu_1, nu_2, dilatation, twist, q_star = form
+    if _is_ordinary(q_star, c):
+        reach = _ordinary_reach(q_star, c, s[5:])
+    else:
+        _, size, y, _ = _balanced(_reduce_loads, loads, c, s, form)
+        *_, factor = _soften(y, c, s[5:])
+        reach = factor if size is y else factor * y / size
     turn = np.multiply(c.per_beta, reach, out=s[4])
     np.multiply(turn, twist, out=u3)
     shear = np.multiply(c.per_zeta, reach, out=s[4])
@@ -327,38 +337,12 @@ def _strains(loads: Rows, c: Constants, work: Array, u3: Array, v: Array) -> Non
     v[2] += 1
 
 
-def _strains_at(n: Any, c: Constants) -> Any:
-    """`strains` of floats; None where it is left to arrays."""
-    n1, n2, n3 = n
-    if not type(n1) is type(n2) is type(n3) is float:
-        return None
-    nu_1, nu_2, dilatation = c.per_zeta * n1, c.per_zeta * n2, c.n3_dilates * n3
-    twist = -c.chirality * dilatation
-    q_star = c.gap * dilatation * dilatation + nu_1 * nu_1 + nu_2 * nu_2
-    if not LOW < q_star < HIGH:
-        return None
-    y = sqrt(q_star)
-    larger = y if y > c.gamma else c.gamma
-    raw_1 = (y if y < c.gamma else c.gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**c.p
-    factor = exp(-log1p(power) / c.p) / larger
-    turn, shear, extend = c.per_beta * factor, c.per_zeta * factor, c.per_eta * factor
-    return turn * twist, (nu_1 * shear, nu_2 * shear, dilatation * extend + 1)
-
-
-def strains(n: Given, constants: Constants, out: Pair | None = None) -> Pair:
+def strains(n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
     """Strains u3, v under the loads n (eq:u3const to eq:v3const).
 
     n (3, ...) in force, with Q*^(1/2) finite.
     Answers u3 (...) in 1/length, v (3, ...) plain; at rest u3 = 0, v = (0, 0, 1).
     """
-    if out is None and type(n) is tuple:
-        try:
-            answer: Pair | None = _strains_at(n, constants)
-        except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(strains, {"n": n}, constants)
     u3, v = _apply(_strains, {"n": n}, constants, ("u3", "v"), out)
     return u3, v
 
@@ -376,14 +360,11 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
     w_star *= y
 
 
-def complementary_energy(n: Given, constants: Constants, out: Array | None = None) -> Array:
+def complementary_energy(n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
     n (3, ...) in force, with Q*^(1/2) finite.
     """
-    if out is None and type(n) is tuple:
-        answer: Array = _one(complementary_energy, {"n": n}, constants)
-        return answer
     (w_star,) = _apply(_complementary_energy, {"n": n}, constants, ("w_star",), out)
     return w_star
 
@@ -440,15 +421,12 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
         soft[i, :i] = soft[:i, i]
 
 
-def compliance(n: Given, constants: Constants, out: Array | None = None) -> Array:
+def compliance(n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d v/d n, (3, 3, ...), symmetric positive definite (Section 3.4).
 
     n (3, ...) in force, with Q*^(1/2) finite.
     Rows and columns are ordered (v1, v2, v3) and (n1, n2, n3).
     """
-    if out is None and type(n) is tuple:
-        answer: Array = _one(compliance, {"n": n}, constants)
-        return answer
     (soft,) = _apply(_compliance, {"n": n}, constants, ("soft",), out)
     return soft
 
@@ -475,15 +453,12 @@ def _strains_and_gap(
     limit_gap[...] = remain
 
 
-def strains_and_gap(n: Given, constants: Constants, out: Triple | None = None) -> Triple:
+def strains_and_gap(n: ArrayLike, constants: Constants, out: Triple | None = None) -> Triple:
     """Strains u3, v under the loads n, and 1 - Q^(p/2).
 
     n (3, ...) in force, with Q*^(1/2) finite.
     Answers u3 (...) in 1/length, v (3, ...) plain, and the gap (...) plain: near the limit
     it says what the strains no longer can.
     """
-    if out is None and type(n) is tuple:
-        answer: Triple = _one(strains_and_gap, {"n": n}, constants)
-        return answer
     u3, v, limit_gap = _apply(_strains_and_gap, {"n": n}, constants, ("u3", "v", "limit_gap"), out)
     return u3, v, limit_gap

@@ -10,7 +10,15 @@ import pytest
 import sympy as sp
 
 from rodproof.codegen import generate, lower, scene
-from rodproof.codegen.kernel import Assignment, Kernel, KernelError, Output, symbol, validate
+from rodproof.codegen.kernel import (
+    Assignment,
+    Kernel,
+    KernelError,
+    Output,
+    ordinarily,
+    symbol,
+    validate,
+)
 from rodproof.codegen.passes.order import order
 from rodproof.codegen.targets.mpmath_target import Evaluator, LimitError
 from rodproof.derivations.symbols import CONSTANTS as CONSTANT_SYMBOLS
@@ -150,3 +158,27 @@ def test_validate_and_order_refuse_nonsense() -> None:
     twice = replace(loop, body=(Assignment("a", p), Assignment("a", p)))
     with pytest.raises(KernelError, match="'a' is set twice"):
         validate(twice, KNOWN)
+
+
+SHORT = [n for n in NAMES if STABLE[n].ordinary]
+
+
+@pytest.mark.parametrize("constants", CONSTANTS, ids=["p=3.3", "p=0.85"])
+@pytest.mark.parametrize("name", SHORT)
+def test_short_way_is_an_identity(name: str, constants: dict) -> None:
+    """The kernel for ordinary points alone, without gauge, norm and radius, is the derivation."""
+    short = order(ordinarily(STABLE[name]))
+    assert short.gauge is None
+    assert not {"size", "y"} & {s.name for e in short.expressions() for s in e.free_symbols}
+    assert distance(values(NAIVE[name], constants), values(short, constants)) < 1e-46
+    survivors = []
+    for k, a in enumerate(short.body):
+        twin = replace(a, expr=2 * a.expr)
+        wrong = replace(short, body=(*short.body[:k], twin, *short.body[k + 1 :]))
+        if distance(values(short, constants), values(wrong, constants)) < 1e-46:
+            survivors.append(a.name)
+    assert not survivors
+
+
+def test_the_strains_have_a_short_way() -> None:
+    assert SHORT == ["strains"]

@@ -133,10 +133,8 @@ def test_loads_tell_what_strains_no_longer_can() -> None:
         with np.errstate(all="raise", under="ignore"):
             u, v, gap = rod.strains_and_gap(size * m, size * n, C)
             stiff = rod.stiffness_at_loads(size * m, size * n, C)
-        assert all(
-            np.array_equal(a, b)
-            for a, b in zip((u, v), rod.strains(size * m, size * n, C), strict=True)
-        )
+        for a, b in zip((u, v), rod.strains(size * m, size * n, C), strict=True):
+            np.testing.assert_allclose(a, b, rtol=4e-15)  # these may have come the short way
         y_p = (1 - gap) / gap  # (y/gamma)^p, and the stiffness along the load is (1 + y_p)^(1 + 1/p)
         load = np.concatenate([m, n])
         soft = np.einsum("ij...,j...->i...", rod.compliance(m * 1e-90, n * 1e-90, C), load)

@@ -224,14 +224,16 @@ def test_fused_function_has_the_same_numbers_to_the_bit(name: str, dtype: type) 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize("name", [n for n, s in SCENES.items() if GAP in s.functions])
-def test_strains_beside_the_gap_are_the_strains_to_the_bit(name: str, dtype: type) -> None:
+def test_strains_beside_the_gap_are_the_strains(name: str, dtype: type) -> None:
+    """To a few ulps: by themselves they may come the short way, which has no gap."""
     own, module = SCENES[name], importlib.import_module(f"rodproof.generated.scenes.{name}")
     mine, whole = constants(own, module)
     given, (m, n) = inputs(own, GAP, (4, 5), dtype)
     *strains, gap = module.strains_and_gap(*given, mine)
     apart = module.strains(*given, mine)
     apart = apart if isinstance(apart, tuple) else (apart,)
-    assert all(np.array_equal(a, b) for a, b in zip(strains, apart, strict=True))
+    for a, b in zip(strains, apart, strict=True):
+        np.testing.assert_allclose(a, b, rtol=16 * np.finfo(dtype).eps)
     *_, wanted = full_rod.strains_and_gap(m, n, whole)
     assert gap.dtype == dtype
     np.testing.assert_allclose(gap, wanted, rtol=8 * np.finfo(dtype).eps)
