@@ -8,9 +8,10 @@ from collections.abc import Mapping
 import sympy as sp
 
 from rodproof.codegen.equilibria.system import Piece
+from rodproof.codegen.passes.share import DIVISORS
 from rodproof.codegen.passes.stabilise import CHIRAL_CONSTANTS
 from rodproof.codegen.targets.printer import Printer, wrapped
-from rodproof.derivations.symbols import CONSTANTS, alpha, beta, eta, zeta
+from rodproof.derivations.symbols import CONSTANTS
 
 INDENT = "    "
 WIDTH = 98
@@ -20,7 +21,7 @@ SPELLING = {
     for name in (
         *(c.name for c in CONSTANTS),
         *(a.name for a in CHIRAL_CONSTANTS),
-        *(f"per_{c.name}" for c in (alpha, beta, zeta, eta)),
+        *(f"per_{c.name}" for c in DIVISORS),
     )
 }
 

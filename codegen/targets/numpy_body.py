@@ -231,6 +231,7 @@ def _two_ways(kernel: Kernel, own: list[Step], printer: Printer) -> list[str]:
     given = rows_name(form.inputs)
     (long,) = (a for a in kernel.body if a.name == way.result)
     (call,) = _unscaled(long, kernel, printer)
+    again = f"_balanced(_{form.name}, {given}, c, s, form)"
     return [
         'with np.errstate(over="ignore", invalid="ignore"):',
         f"{INDENT}form = _{form.name}({given}, c, s)",
@@ -238,7 +239,7 @@ def _two_ways(kernel: Kernel, own: list[Step], printer: Printer) -> list[str]:
         f"if _is_ordinary({gauge.square}, c):",
         f"{INDENT}{way.result} = _ordinary_{way.result}({gauge.square}, c, s[{form.kept}:])",
         "else:",
-        f"{INDENT}_, {gauge.norm}, {gauge.radius}, _ = _balanced(_{form.name}, {given}, c, s, form)",
+        f"{INDENT}_, {gauge.norm}, {gauge.radius}, _ = {again}",
         *(INDENT + line for line in _call(radial, kernel, form.kept)),
         f"{INDENT}{way.result} = {call.operands[0]}",
     ]

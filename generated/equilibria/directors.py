@@ -18,6 +18,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import exp, log1p, sqrt
 from typing import Any
 
 import numpy as np
@@ -26,12 +27,15 @@ from numpy.typing import ArrayLike
 Array = np.ndarray[Any, np.dtype[Any]]
 Pair = tuple[Array, Array]
 Rows = Sequence[Array]
-Inputs = dict[str, ArrayLike]
+Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
+Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
 ROWS = 23  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
+LEAST, LOG_MOST = 2.0**-1022, 0.99 * 1022 * math.log(2)  # for one point, in doubles
+LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 HEADS = {"m": (3,), "n": (3,), "u": (3,), "v": (3,), "soft": (6, 6)}
 
 
@@ -69,7 +73,10 @@ class Constants:
                 rule = "a finite number" if name == "iota" else "positive and finite"
                 raise ValueError(f"Constants: {name} must be {rule}, not {value}")
             object.__setattr__(self, name, value)
-        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota, self.gamma, self.p))
+        exact = (
+            Fraction(v)
+            for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota, self.gamma, self.p)
+        )
         alpha, beta, zeta, eta, iota, gamma, p = exact
         if not beta**2 * eta**2 - iota**2 > 0:
             raise ValueError(
@@ -186,10 +193,10 @@ def _ordinary_reach(q_star: Array, c: Constants, s: Rows) -> Array:
     """Strain over load where nothing is extreme, by (y/gamma)^p."""
     scaled = np.multiply(c.per_gamma, q_star, out=s[0])
     overload = np.multiply(c.per_gamma, scaled, out=s[0])
-    power = np.log(overload, out=s[0])
-    power *= 0.5 * c.p
-    np.exp(power, out=power)
-    reach = np.log1p(power, out=s[2])
+    excess = np.log(overload, out=s[0])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    reach = np.log1p(excess, out=s[2])
     reach *= -c.per_p
     np.exp(reach, out=reach)
     reach *= c.per_gamma
@@ -242,6 +249,8 @@ def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
     """Runs ``body`` over blocks of points, straight into the results where that is safe."""
+    if out is not None and all(type(value) is tuple for value in inputs.values()):
+        raise ValueError("out is for arrays; tuples of numbers are answered with new tuples")
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
@@ -265,6 +274,29 @@ def _apply(
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
     return results
+
+
+def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
+    """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
+    arrays, shape = _arguments(inputs)
+    if shape:  # tuples of arrays
+        return law(*map(np.asarray, inputs.values()), c)
+    floats = [a.astype(float).tolist() for a in arrays]
+    again = tuple(tuple(f) if isinstance(f, list) else f for f in floats)
+    if repr(again) != repr((*inputs.values(),)):
+        return law(*again, c)
+    answer = law(*map(np.array, floats), c)
+    if not isinstance(answer, tuple):
+        return _numbers(answer)
+    return tuple(_numbers(array) for array in answer)
+
+
+def _numbers(array: Array) -> Any:
+    """The array as a float, a tuple of floats, or a tuple of rows."""
+    values = array.astype(float).tolist()
+    if array.ndim == 2:
+        return tuple(map(tuple, values))
+    return tuple(values) if array.ndim else values
 
 
 def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None:
@@ -292,12 +324,48 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None
     v[2] += 1
 
 
-def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:
+def _strains_at(m: Any, n: Any, c: Constants) -> Any:
+    """`strains` of floats; None where it is left to arrays."""
+    m1, m2, m3 = m
+    n1, n2, n3 = n
+    if not type(m1) is type(m2) is type(m3) is type(n1) is type(n2) is type(n3) is float:
+        return None
+    mu_1, mu_2, mu_3, nu_1 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3, c.per_zeta * n1
+    nu_2 = c.per_zeta * n2
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    q_star = (
+        c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    if not LOW < q_star < HIGH:
+        return None
+    y = sqrt(q_star)
+    larger = y if y > c.gamma else c.gamma
+    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**c.p
+    factor = exp(-c.per_p * log1p(power)) / larger
+    bend, turn, shear = c.per_alpha * factor, c.per_beta * factor, c.per_zeta * factor
+    extend = c.per_eta * factor
+    return (
+        (bend * mu_1, bend * mu_2, turn * twist),
+        (nu_1 * shear, nu_2 * shear, dilatation * extend + 1),
+    )
+
+
+def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -> Pair:
     """Strains u, v under the loads m, n (eq:uconst to eq:v3const).
 
     m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
     Answers u (3, ...) in 1/length, v (3, ...) plain; at rest u = 0, v = (0, 0, 1).
     """
+    if out is None and type(m) is type(n) is tuple:
+        try:
+            answer: Pair | None = _strains_at(m, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = None
+        return answer or _one(strains, {"m": m, "n": n}, constants)
     u, v = _apply(_strains, {"m": m, "n": n}, constants, ("u", "v"), out)
     return u, v
 
@@ -402,12 +470,15 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
         soft[i, :i] = soft[:i, i]
 
 
-def compliance(m: ArrayLike, n: ArrayLike, constants: Constants, out: Array | None = None) -> Array:
+def compliance(m: Given, n: Given, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
 
     m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
     Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
     """
+    if out is None and type(m) is type(n) is tuple:
+        answer: Array = _one(compliance, {"m": m, "n": n}, constants)
+        return answer
     (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, ("soft",), out)
     return soft
 
@@ -428,39 +499,39 @@ def _linear_strains(loads: Numbers, c: Constants) -> Numbers:
     dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
     twist = mu_3 - c.chirality * dilatation
     return (
-        c.per_alpha * mu_1 * per_gamma,
-        c.per_alpha * mu_2 * per_gamma,
-        c.per_beta * per_gamma * twist,
-        c.per_zeta * nu_1 * per_gamma,
-        c.per_zeta * nu_2 * per_gamma,
-        c.per_eta * dilatation * per_gamma + 1,
+        c.per_alpha * c.per_gamma * mu_1,
+        c.per_alpha * c.per_gamma * mu_2,
+        c.per_beta * c.per_gamma * twist,
+        c.per_gamma * c.per_zeta * nu_1,
+        c.per_gamma * c.per_zeta * nu_2,
+        c.per_eta * c.per_gamma * dilatation + 1,
     )
 
 
 def _linear_compliance(c: Constants) -> Numbers:
     """K^-1/gamma, the entries on and above the diagonal, row by row."""
     return (
-        c.per_alpha**2 * per_gamma,
+        c.per_alpha**2 * c.per_gamma,
         0.0,
         0.0,
         0.0,
         0.0,
         0.0,
-        c.per_alpha**2 * per_gamma,
+        c.per_alpha**2 * c.per_gamma,
         0.0,
         0.0,
         0.0,
         0.0,
-        c.per_beta**2 * c.per_gap * per_gamma,
+        c.per_beta**2 * c.per_gamma * c.per_gap,
         0.0,
         0.0,
-        -c.chirality * c.per_beta * c.per_eta * c.per_gap * per_gamma,
-        c.per_zeta**2 * per_gamma,
+        -c.chirality * c.per_beta * c.per_eta * c.per_gamma * c.per_gap,
+        c.per_gamma * c.per_zeta**2,
         0.0,
         0.0,
-        c.per_zeta**2 * per_gamma,
+        c.per_gamma * c.per_zeta**2,
         0.0,
-        c.per_eta**2 * c.per_gap * per_gamma,
+        c.per_eta**2 * c.per_gamma * c.per_gap,
     )
 
 

@@ -14,15 +14,15 @@ reading; wstar-gradient Section 3.1 proved.
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
 Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                50    4    0   17
-    loads                  42    4    0   17
-    stored_energy          33    4    1   13
-    complementary_energy   42    6    1   13
-    stiffness             108    4    0   26
-    loads_and_stiffness   118    4    0   30
-    compliance            161    4    0   39
-    strains_and_gap        54    4    0   18
-    stiffness_at_loads    110    4    0   23
+    strains                49    4    0   17
+    loads                  41    4    0   17
+    stored_energy          32    4    1   13
+    complementary_energy   41    6    1   13
+    stiffness             107    4    0   26
+    loads_and_stiffness   117    4    0   30
+    compliance            160    4    0   39
+    strains_and_gap        53    4    0   18
+    stiffness_at_loads    108    4    0   23
 """
 
 from __future__ import annotations
@@ -86,6 +86,8 @@ class Values(NamedTuple):
     per_beta: float
     per_zeta: float
     per_eta: float
+    per_gamma: float
+    per_p: float
     per_gap: float
     work_share: tuple[Array, Array, float, float, float]
 
@@ -113,6 +115,8 @@ class Constants:
     per_beta: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
+    per_p: float = field(init=False, repr=False, compare=False)
     per_gap: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -122,8 +126,11 @@ class Constants:
                 rule = "a finite number" if name == "iota" else "positive and finite"
                 raise ValueError(f"Constants: {name} must be {rule}, not {value}")
             object.__setattr__(self, name, value)
-        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota))
-        alpha, beta, zeta, eta, iota = exact
+        exact = (
+            Fraction(v)
+            for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota, self.gamma, self.p)
+        )
+        alpha, beta, zeta, eta, iota, gamma, p = exact
         if not beta**2 * eta**2 - iota**2 > 0:
             raise ValueError(
                 "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
@@ -138,6 +145,8 @@ class Constants:
             "per_beta": 1 / beta,
             "per_zeta": 1 / zeta,
             "per_eta": 1 / eta,
+            "per_gamma": 1 / gamma,
+            "per_p": 1 / p,
             "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
         }
         for name, ratio in derived.items():  # exact, then rounded once
@@ -188,6 +197,8 @@ class Constants:
             self.per_beta,
             self.per_zeta,
             self.per_eta,
+            self.per_gamma,
+            self.per_p,
             self.per_gap,
             (
                 np.array(self.work_share[0][::-1]),
@@ -321,7 +332,7 @@ def _strains(
     raw_1 = (y if y < c.gamma else c.gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
     power = _exp(c.p * _log(ratio))
-    factor = _exp(-_log1p(power) / c.p) / larger
+    factor = _exp(-c.per_p * _log1p(power)) / larger
     reach = factor / scale
     bend, turn, shear = c.per_alpha * reach, c.per_beta * reach, c.per_zeta * reach
     extend = c.per_eta * reach
@@ -393,7 +404,7 @@ def _loads(u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: 
     raw_1 = -0.5 * c.p * _log(q if q > LEAST else LEAST)
     growth = 1 / _expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = _log1p(growth)
-    factor = c.gamma * _exp(depth / c.p)
+    factor = c.gamma * _exp(c.per_p * depth)
     bend, turn, shear, extend = c.alpha * factor, c.beta * factor, c.zeta * factor, c.eta * factor
     return (
         (
@@ -460,7 +471,7 @@ def _stored_energy(
     raw_1 = -0.5 * c.p * _log(q if q > LEAST else LEAST)
     growth = 1 / _expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = _log1p(growth)
-    factor = c.gamma * _exp(depth / c.p)
+    factor = c.gamma * _exp(c.per_p * depth)
     load = factor * x
     return load * x * _work_share_at(depth, c), square, q
 
@@ -539,7 +550,7 @@ def _complementary_energy(
     raw_1 = (y if y < c.gamma else c.gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
     power = _exp(c.p * _log(ratio))
-    factor = _exp(-_log1p(power) / c.p) / larger
+    factor = _exp(-c.per_p * _log1p(power)) / larger
     strain = factor * y
     depth = _log1p(power) - c.p * (0.0 if y <= c.gamma else _log(ratio))
     return strain * y * (1 - _work_share_at(depth, c)), square
@@ -611,7 +622,7 @@ def _stiffness(u1: float, u2: float, u3: float, v1: float, v2: float, v3: float,
     raw_1 = -0.5 * c.p * _log(q if q > LEAST else LEAST)
     growth, x = 1 / _expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST), sqrt(q if q > LEAST else LEAST)
     depth = _log1p(growth)
-    factor = c.gamma * _exp(depth / c.p)
+    factor = c.gamma * _exp(c.per_p * depth)
     steep = factor * growth
     per_x = 1 / x
     bend_per_x, turn_per_x, shear_per_x = c.alpha * per_x, c.beta * per_x, c.zeta * per_x
@@ -705,7 +716,7 @@ def _loads_and_stiffness(
     raw_1 = -0.5 * c.p * _log(q if q > LEAST else LEAST)
     growth, x = 1 / _expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST), sqrt(q if q > LEAST else LEAST)
     depth = _log1p(growth)
-    factor = c.gamma * _exp(depth / c.p)
+    factor = c.gamma * _exp(c.per_p * depth)
     steep, bend, turn, shear = factor * growth, c.alpha * factor, c.beta * factor, c.zeta * factor
     extend = c.eta * factor
     per_x = 1 / x
@@ -817,7 +828,7 @@ def _compliance(
     raw_1 = (y if y < c.gamma else c.gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
     power = _exp(c.p * _log(ratio))
-    factor = _exp(-_log1p(power) / c.p) / larger
+    factor = _exp(-c.per_p * _log1p(power)) / larger
     remain = (1.0 if y <= c.gamma else power) / (power + 1)
     per_size = 1 / (size if size > LEAST else LEAST)
     a1, share = per_size * (mu_1 + LEAST), (power if y <= c.gamma else 1.0) / (power + 1)
@@ -941,7 +952,7 @@ def _strains_and_gap(
     raw_1 = (y if y < c.gamma else c.gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
     power = _exp(c.p * _log(ratio))
-    factor = _exp(-_log1p(power) / c.p) / larger
+    factor = _exp(-c.per_p * _log1p(power)) / larger
     reach, remain = factor / scale, (1.0 if y <= c.gamma else power) / (power + 1)
     bend, turn, shear = c.per_alpha * reach, c.per_beta * reach, c.per_zeta * reach
     extend = c.per_eta * reach
@@ -1020,12 +1031,12 @@ def _stiffness_at_loads(
     )
     size = sqrt(square)
     y = size / scale
-    raw_1 = y / c.gamma
+    raw_1 = c.per_gamma * y
     rise = _exp(0.5 * c.p * _log(raw_1 if raw_1 > LEAST else LEAST))
     raw_2 = 1 / (rise if rise > LEAST else LEAST)
     half = raw_2 if raw_2 < rise else rise
     power = half * half
-    factor = _exp(_log1p(power) / c.p) * (y if y > c.gamma else c.gamma)
+    factor = _exp(c.per_p * _log1p(power)) * (y if y > c.gamma else c.gamma)
     rise_per_size = rise / (size if size > LEAST else LEAST)
     bend_rise, turn_rise = c.alpha * rise_per_size, c.beta * rise_per_size
     shear_rise, extend_rise, h1 = c.zeta * rise_per_size, c.eta * rise_per_size, bend_rise * mu_1

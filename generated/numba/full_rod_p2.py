@@ -24,7 +24,7 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     loads_and_stiffness   117    0    0   31
     compliance            159    0    0   39
     strains_and_gap        52    0    0   18
-    stiffness_at_loads    107    0    0   23
+    stiffness_at_loads    106    0    0   23
 """
 
 from __future__ import annotations
@@ -87,6 +87,7 @@ class Values(NamedTuple):
     per_beta: float
     per_zeta: float
     per_eta: float
+    per_gamma: float
     per_gap: float
 
 
@@ -112,6 +113,7 @@ class Constants:
     per_beta: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
     per_gap: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -121,8 +123,10 @@ class Constants:
                 rule = "a finite number" if name == "iota" else "positive and finite"
                 raise ValueError(f"Constants: {name} must be {rule}, not {value}")
             object.__setattr__(self, name, value)
-        exact = (Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota))
-        alpha, beta, zeta, eta, iota = exact
+        exact = (
+            Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota, self.gamma)
+        )
+        alpha, beta, zeta, eta, iota, gamma = exact
         if not beta**2 * eta**2 - iota**2 > 0:
             raise ValueError(
                 "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
@@ -137,6 +141,7 @@ class Constants:
             "per_beta": 1 / beta,
             "per_zeta": 1 / zeta,
             "per_eta": 1 / eta,
+            "per_gamma": 1 / gamma,
             "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
         }
         for name, ratio in derived.items():  # exact, then rounded once
@@ -162,6 +167,7 @@ class Constants:
             self.per_beta,
             self.per_zeta,
             self.per_eta,
+            self.per_gamma,
             self.per_gap,
         )
 
@@ -903,7 +909,7 @@ def _stiffness_at_loads(
     )
     size = sqrt(square)
     y = size / scale
-    rise = y / c.gamma
+    rise = c.per_gamma * y
     raw_1 = 1 / (rise if rise > LEAST else LEAST)
     half = raw_1 if raw_1 < rise else rise
     power = half * half
