@@ -8,6 +8,7 @@ from typing import Any
 import sympy as sp
 
 from rodproof.derivations.checks.domains import FUNCTIONS, NO_LOAD, ON_LOADS, ON_STRAINS, REST
+from rodproof.derivations.checks.routes import values as routes
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Every, W, Wstar, m, n, u, v
 from rodproof.derivations.proof import sampling
@@ -67,6 +68,8 @@ COLUMNS = Meaning(
     components=_columns(),
     sample=_sample_columns,
     simple=sampling.simple_loads,
+    route=routes.columns,
+    route_name="components solved for in a frame turned numerically",
 )
 
 # -- the three-dimensional relation -----------------------------------------------------------
@@ -115,6 +118,8 @@ ON_STRESSES = Meaning(
     components=_symmetric_stress(),
     sample=_sample_tensor,
     simple=lambda: (_sample_tensor(0),),
+    route=routes.stress,
+    route_name="norm from eigenvalues, strain radius by integrating its slope",
 )
 ON_DEFORMATIONS = Meaning(
     name="all invertible deformation gradients",
@@ -122,6 +127,8 @@ ON_DEFORMATIONS = Meaning(
     components=_almansi(),
     sample=_sample_tensor,
     simple=lambda: (_sample_tensor(0),),
+    route=routes.deformation,
+    route_name="lengths of short lines, with F and F F^T solved numerically",
 )
 TB_RANGES = Ranges((a, b, p))
 

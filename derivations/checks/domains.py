@@ -7,10 +7,13 @@ W* integrated by quadrature, loads from solving the law for its unknown, W from 
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.exact.evaluate import number
 from rodproof.derivations.notation import Partial, Q, Qstar, W, Wstar, m, n, u, v
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
@@ -63,17 +66,34 @@ FUNCTIONS = {
 class _Numbers:
     """The law from its definition, numerically: K, one quadrature, one root."""
 
-    def __init__(self, point: Point, ctx: Any) -> None:
+    def __init__(self, point: Mapping[sp.Symbol, Any], ctx: Any) -> None:
         self.ctx = ctx
-        self.c = {name: ctx.mpf(int(x.p)) / int(x.q) for name, x in point.items()}
+        self.c = {name: number(ctx, x) for name, x in point.items()}
         c = self.c
         self.K = ctx.diag(
             [c[alpha] ** 2, c[alpha] ** 2, c[beta] ** 2, c[zeta] ** 2, c[zeta] ** 2, c[eta] ** 2]
         )
         self.K[2, 5] = self.K[5, 2] = c[iota]
 
-    def dual(self, load: list[Any]) -> Any:
-        return self._dot(load, self.ctx.lu_solve(self.K, self.ctx.matrix(load)))
+    @cached_property
+    def _inverse(self) -> list[list[Any]]:
+        """K inverted numerically, once: root searches ask for it over and over."""
+        return [list(row) for row in self.ctx.inverse(self.K).tolist()]
+
+    def image(self, load: Sequence[Any]) -> list[Any]:
+        """K^{-1} sigma."""
+        present = [(k, x) for k, x in enumerate(load) if x]
+        return [self.ctx.fsum(row[k] * x for k, x in present) for row in self._inverse]
+
+    def dual(self, load: Sequence[Any]) -> Any:
+        return self._dot(load, self.image(load))
+
+    def under(self, load: Sequence[Any]) -> list[Any]:
+        """The law as it stands, (gamma^p + y^p)^{-1/p} K^{-1} sigma; gamma is 1 where not given."""
+        image, power = self.image(load), self.c[p]
+        radius = self.ctx.sqrt(self._dot(load, image))
+        factor = (self.c.get(gamma, 1) ** power + radius**power) ** (-1 / power)
+        return [factor * e for e in image]
 
     def form(self, strain: list[Any]) -> Any:
         return self._dot(strain, self.K * self.ctx.matrix(strain))
@@ -105,7 +125,7 @@ class _Numbers:
         low = ctx.log(scale * radius / 2)
         high = low + 1
         while excess(high) < 0:
-            high += 1
+            low, high = high, high + 1
         y = ctx.exp(ctx.findroot(excess, (low, high), solver="anderson"))
         return [y / radius * row for row in self.K * ctx.matrix(strain)]
 

@@ -20,6 +20,7 @@ from rodproof.derivations.checks.domains import (
     ON_STRAINS,
     _Numbers,
 )
+from rodproof.derivations.checks.routes import values as measured
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Every, Partial, W, Wstar, m, n, u, v
 from rodproof.derivations.proof import sampling
@@ -338,5 +339,6 @@ TWO_TIMES = Meaning(
     name="two relaxation times near the strain limit", free=(dissipation.a, dissipation.b),
     sample=lambda seed: {dissipation.a: sp.Rational(3 + seed, 7), dissipation.b: sp.Rational(9, 5)},
     simple=lambda: ({dissipation.a: sp.Integer(1), dissipation.b: sp.Integer(3)},),
-    components={loss_at_limit: dissipation.loss()},
+    components={loss_at_limit: dissipation.loss()}, route=measured.two_times(loss_at_limit),
+    route_name="power of a small process at Q = 1 - 2e-40, loads by root search",
 )  # fmt: skip

@@ -29,7 +29,7 @@ class Evaluator:
 
     def __init__(self, ctx: Any, values: Mapping[sp.Symbol, Any]) -> None:
         self.ctx = ctx
-        self.values = {symbol: _convert(ctx, value) for symbol, value in values.items()}
+        self.values = {symbol: number(ctx, value) for symbol, value in values.items()}
         self._cache: dict[sp.Basic, Number] = {}
 
     def __call__(self, expr: sp.Basic) -> Number:
@@ -103,7 +103,8 @@ class Evaluator:
         )
 
 
-def _convert(ctx: Any, value: Any) -> Number:
+def number(ctx: Any, value: Any) -> Number:
+    """A rational of SymPy, or a number of any kind, as one of the context."""
     if isinstance(value, sp.Rational):
         return ctx.mpf(int(value.p)) / int(value.q)
     return ctx.convert(value)

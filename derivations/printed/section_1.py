@@ -8,6 +8,7 @@ from rodproof.derivations.checks import constitutive, kinematics
 from rodproof.derivations.checks import introduction as rules
 from rodproof.derivations.checks.introduction import e, g, hessian, radius
 from rodproof.derivations.checks.kinematics import d, r_vector, u_vector
+from rodproof.derivations.checks.routes import constants, states
 from rodproof.derivations.checks.symmetry import INSIDE, R
 from rodproof.derivations.notation import (
     Cross,
@@ -29,6 +30,7 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, zeta
 from rodproof.derivations.theory.frames import psi, theta
@@ -101,7 +103,7 @@ def _properties() -> tuple[Statement, ...]:
             claim="All constants but one are read off small-strain moduli.",
             latex=r"\gamma\alpha^2,\ \gamma\beta^2,\ \gamma\zeta^2,\ \gamma\eta^2,\ \gamma\iota",
             printed=sp.Tuple(*(gamma * c for c in (alpha**2, beta**2, zeta**2, eta**2, iota))),
-            check=constitutive.MODULI,
+            check=Routed(constitutive.MODULI, constants.MODULI),
             reading="Each constant but p enters a small-strain modulus, but the five moduli do not "
             "fix the six constants: (gamma, alpha, beta, zeta, eta, iota) and (4 gamma, alpha/2, "
             "beta/2, zeta/2, eta/2, iota/4) have the same moduli and different strain limits. One "
@@ -131,7 +133,7 @@ def _couples() -> tuple[Statement, ...]:
             claim="An isolated couple whose chirality is opposite to the rod's elongates it.",
             latex=r"\mathsf n = 0,\ \iota m_3 < 0 \implies |\boldsymbol r'| = v_3 > 1",
             printed=Implies(chain(iota * m[3], "<", 0), chain(v[3], ">", 1)),
-            check=rules.ELONGATION,
+            check=Routed(rules.ELONGATION, states.POYNTING),
             note="For every isolated couple, with bending as well: only its twisting component "
             "counts, and v_1 = v_2 = 0. A couple of the rod's own chirality has v_3 < 1.",
         ),
@@ -139,7 +141,7 @@ def _couples() -> tuple[Statement, ...]:
             id="intro-helix-two-parameters", section=SECTION, label="-",
             claim="The helical states under isolated couples are a family of two parameters.",
             latex=r"(M, \theta), \quad M = |\boldsymbol m|",
-            printed=sp.Tuple(couple, theta), check=rules.FAMILY,
+            printed=sp.Tuple(couple, theta), check=Routed(rules.FAMILY, states.FAMILY),
             reading="Counted up to rigid motions of the rod and turns of its directors about d_3: "
             "the printed family has the third free constant psi(0), which by hemitropy changes "
             "neither the center line nor the energy. M_1 = -M sin(theta) in the paper's letters.",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from rodproof.derivations.checks import kinematics as rules
 from rodproof.derivations.checks import orientation
 from rodproof.derivations.checks.kinematics import d, r_vector, u_vector
+from rodproof.derivations.checks.routes import definitions
 from rodproof.derivations.notation import (
     Cross,
     Dot,
@@ -18,6 +19,7 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 
 SECTION = "2.1"
@@ -41,7 +43,7 @@ def _configuration() -> tuple[Statement, ...]:
             printed=Every(
                 equal(Dot(d[1], d[1]), 1), equal(Dot(d[2], d[2]), 1), equal(Dot(d[1], d[2]), 0)
             ),
-            check=rules.ORTHONORMAL,
+            check=Routed(rules.ORTHONORMAL, definitions.ORTHONORMAL),
             note="Nine numbers under three equations: six degrees of freedom for each s.",
         ),
         Statement(
@@ -112,7 +114,8 @@ def _tangent() -> tuple[Statement, ...]:
         Statement(
             id="v3-positive", section=SECTION, label="eq:v3pos", introduces=True,
             claim="The third director points forwards along the center line.",
-            latex=r"v_3(s) > 0", printed=positive(v[3]), check=rules.ORIENTED,
+            latex=r"v_3(s) > 0", printed=positive(v[3]),
+            check=Routed(rules.ORIENTED, definitions.FORWARDS),
         ),
         Statement(
             id="v3-positive-consequences", section=SECTION, label="-",
@@ -126,7 +129,7 @@ def _tangent() -> tuple[Statement, ...]:
                     positive(Dot(tangent, tangent)), positive(Dot(tangent, Cross(d[1], d[2]))),
                 ),
             ),
-            check=orientation.STRETCHED,
+            check=Routed(orientation.STRETCHED, definitions.CONSEQUENCES),
             note="The sine of the angle between center line and section is v_3/|r'|. The stretch "
             "is positive as soon as v is not zero; only the second consequence needs v_3.",
         ),

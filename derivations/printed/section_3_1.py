@@ -9,6 +9,7 @@ from rodproof.derivations.checks.domains import (
     ON_LOADS,
     ON_STRAINS,
 )
+from rodproof.derivations.checks.routes import constants
 from rodproof.derivations.notation import (
     Every,
     Implies,
@@ -33,6 +34,7 @@ from rodproof.derivations.printed.section_3_1_energies import (
     strain_factor,
 )
 from rodproof.derivations.proof.prover import Identity
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 
@@ -187,7 +189,7 @@ def _constants_and_forms() -> tuple[Statement, ...]:
             claim="Inequality on the constants that makes both quadratic forms positive definite.",
             latex=r"\alpha^2 \beta^2 - \iota^2 > 0",
             printed=positive(alpha**2 * beta**2 - iota**2),
-            check=rules.COUPLING,
+            check=Routed(rules.COUPLING, constants.COUPLING),
             correction=positive(D),
             note="The printed inequality is not even dimensionally consistent: alpha^2 beta^2 "
             "scales like length^4 and iota^2 like length^2. It neither implies nor follows from "
@@ -202,7 +204,7 @@ def _constants_and_forms() -> tuple[Statement, ...]:
             r"\implies \text{positive definite:}\\"
             rf"&Q = {q_tex}\\ &Q^* = {qstar_tex}\end{{aligned}}",
             printed=definite(alpha**2 * beta**2 - iota**2, v),
-            check=rules.FORMS,
+            check=Routed(rules.FORMS, constants.FORMS),
             correction=definite(D, n),
         ),
         Statement(

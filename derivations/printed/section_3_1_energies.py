@@ -10,6 +10,7 @@ from rodproof.derivations.checks.domains import (
     NEAR_REST,
     ON_STRAINS,
 )
+from rodproof.derivations.checks.routes import constants
 from rodproof.derivations.notation import (
     Chain,
     Every,
@@ -28,6 +29,7 @@ from rodproof.derivations.notation import (
     v,
 )
 from rodproof.derivations.proof.prover import Identity
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 from rodproof.derivations.theory.dimensions import force, length
@@ -142,7 +144,7 @@ def _loads_from_strains() -> tuple[Statement, ...]:
             "non-invertible.",
             latex=r"s(y) = s_\infty \ \text{for all}\ y \geq Y \implies s(Y) = s(2Y)",
             printed=equal(rules.s(rules.Y), rules.s(2 * rules.Y)),
-            check=rules.SATURATION,
+            check=Routed(rules.SATURATION, constants.SATURATION),
         ),
     )
 
@@ -187,13 +189,13 @@ def _dimensions() -> tuple[Statement, ...]:
                 *(equal(dim(c), length) for c in (alpha, beta, iota)),
                 equal(dim(gamma), force), equal(dim(zeta), 1), equal(dim(eta), 1),
             ),
-            check=rules.DIMENSIONS,
+            check=Routed(rules.DIMENSIONS, constants.DIMENSIONS),
         ),
         Statement(
             id="seven-dimensionless-parameters", section=SECTION, label="-",
             claim="The model has seven dimensionless parameters.",
             latex=r"\gamma/F,\ \alpha/L,\ \beta/L,\ \iota/L,\ \zeta,\ \eta,\ p",
-            printed=groups, check=rules.GROUPS,
+            printed=groups, check=Routed(rules.GROUPS, constants.GROUPS),
             note="Nine quantities (seven constants, L and F) less two units; with gamma itself as "
             "the unit of force six remain.",
         ),
@@ -202,7 +204,7 @@ def _dimensions() -> tuple[Statement, ...]:
             claim="All constants but p have a small-strain interpretation.",
             latex=r"\gamma\alpha^2,\ \gamma\beta^2,\ \gamma\zeta^2,\ \gamma\eta^2,\ \gamma\iota",
             printed=sp.Tuple(*(gamma * c for c in (alpha**2, beta**2, zeta**2, eta**2, iota))),
-            check=rules.MODULI,
+            check=Routed(rules.MODULI, constants.MODULI),
             reading="Each constant but p enters a small-strain modulus, but not one of them alone "
             "is a modulus: the five moduli do not fix the six constants. (gamma, alpha, beta, "
             "zeta, eta, iota) and (4 gamma, alpha/2, beta/2, zeta/2, eta/2, iota/4) have the same "

@@ -8,6 +8,7 @@ from rodproof.derivations.checks import kinematics
 from rodproof.derivations.checks import orientation as rules
 from rodproof.derivations.checks.kinematics import d
 from rodproof.derivations.checks.orientation import L, chi_vector, det, r_vector, s
+from rodproof.derivations.checks.routes import constants, definitions
 from rodproof.derivations.notation import (
     Chain,
     Every,
@@ -21,6 +22,7 @@ from rodproof.derivations.notation import (
     u,
     v,
 )
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, iota
 from rodproof.derivations.theory.orientation import a, x1, x2
@@ -58,13 +60,15 @@ def _center_line() -> tuple[Statement, ...]:
         Statement(
             id="v3-sign", section=SECTION, label="eq:v3sign", introduces=True,
             claim="The condition that fixes the sense of d_3 and keeps the stretch from zero.",
-            latex="v_3(s) > 0", printed=positive(v[3]), check=kinematics.ORIENTED,
+            latex="v_3(s) > 0", printed=positive(v[3]),
+            check=Routed(kinematics.ORIENTED, definitions.FORWARDS),
         ),
         Statement(
             id="matconst1-iff", section=SECTION, label="eq:matconst1",
             claim="Two forms of the condition under which the dilatation strain stays positive.",
             latex=_RATIO_TEX + r" < 1 \iff 1 + \frac{\iota^2}{\beta^2} < \eta^2",
-            printed=Iff(chain(_ratio, "<", 1), _condition()), check=rules.EQUIVALENT,
+            printed=Iff(chain(_ratio, "<", 1), _condition()),
+            check=Routed(rules.EQUIVALENT, constants.V3_POSITIVE),
             note="The left form needs beta^2 eta^2 > iota^2; the right one implies it.",
         ),
         Statement(
@@ -137,7 +141,8 @@ def _determinant() -> tuple[Statement, ...]:
         Statement(
             id="det-positive", section=SECTION, label="-", introduces=True,
             claim="What it means that the constrained deformation preserves orientation.",
-            latex=_IN_BODY_TEX, printed=oriented, check=rules.ORIENTATION,
+            latex=_IN_BODY_TEX, printed=oriented,
+            check=Routed(rules.ORIENTATION, definitions.VOLUME),
         ),
         Statement(
             id="extra-determinant", section=SECTION, label="-",
@@ -155,7 +160,7 @@ def _radius() -> tuple[Statement, ...]:
             id="matconst2", section=SECTION, label="eq:matconst2", introduces=True,
             claim="The condition on the radius of the section.",
             latex=rf"a < \alpha(1 - {_RATIO_TEX})",
-            printed=_radius_condition(), check=rules.radius_condition(),
+            printed=_radius_condition(), check=Routed(rules.radius_condition(), constants.RADIUS),
             note="It implies eq:matconst1, as a > 0; if the right side is not positive no radius "
             "meets it. It bounds flexure and dilatation separately and is sufficient, not "
             "necessary: the sharp condition is extra-orientation-sharp.",

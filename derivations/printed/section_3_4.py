@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from rodproof.derivations.checks import monotonicity as rules
+from rodproof.derivations.checks.routes import constants
 from rodproof.derivations.checks.tangents import UNIT_STRAINS, a, b
 from rodproof.derivations.checks.units import Units
 from rodproof.derivations.notation import (
@@ -29,6 +30,7 @@ from rodproof.derivations.notation import (
     v,
 )
 from rodproof.derivations.printed import section_3_4_extras as extras
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 from rodproof.derivations.theory.dimensions import length
@@ -74,7 +76,7 @@ def _units() -> Statement:
         id="nondimensionalization", section=SECTION, label="-", introduces=True,
         claim="Length and force scales of the remainder of the paper: the rod's length and gamma.",
         latex=r"L = 1, \quad \gamma = 1",
-        printed=Every(equal(length, 1), equal(gamma, 1)), check=Units(),
+        printed=Every(equal(length, 1), equal(gamma, 1)), check=Routed(Units(), constants.UNITS),
         note="A length and a force are free to choose, and the law in these units is the law with "
         "gamma = 1; alpha, beta, iota become alpha/L, beta/L, iota/L. Six numbers are left "
         "(alpha, beta, zeta, eta, iota, p) besides the loads.",

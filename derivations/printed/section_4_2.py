@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks.routes import states, thrust
 from rodproof.derivations.checks.thrust import domains, points
 from rodproof.derivations.checks.thrust.branch import Determined, TwistedUnless, of_both_chiralities
 from rodproof.derivations.checks.thrust.equations import (
@@ -43,6 +44,7 @@ from rodproof.derivations.notation import (
 )  # fmt: skip
 from rodproof.derivations.printed import section_4_2_sheared
 from rodproof.derivations.proof.prover import Identity
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import LOADS, beta, eta, iota, p, u1, u2, u3, v1, v2, v3, zeta
 from rodproof.derivations.theory.frames import phi, psi, theta
@@ -83,7 +85,8 @@ def _reduced_equations() -> tuple[Statement, ...]:
             id="pure-force-m-zero", section=SECTION, label="-",
             claim="The contact couple vanishes in both frames at once.",
             latex=r"\boldsymbol m(s) = \boldsymbol 0 \iff M_1(s) = M_2(s) = M_3(s) = 0",
-            printed=Iff(_zeros(m), _zeros(M)), check=Vanish(domains.COUPLES, LOADS[:3]),
+            printed=Iff(_zeros(m), _zeros(M)),
+            check=Routed(Vanish(domains.COUPLES, LOADS[:3]), states.VANISH),
         ),
         Statement(
             id="pure-force-phi", section=SECTION, label="eq:TTvarphi",
@@ -167,7 +170,7 @@ def _center_line() -> tuple[Statement, ...]:
             claim="The algebraic equation leaves two cases.",
             latex=r"\sin\theta = 0 \quad\text{or}\quad v_3 = v N \cos\theta",
             printed=alternatives, read_as=Implies(loaded, alternatives),
-            check=Alternatives(COUPLE_BALANCE),
+            check=Routed(Alternatives(COUPLE_BALANCE), thrust.ALTERNATIVES),
             reading=at_rest + "any direction, where neither alternative need hold.",
         ),
         Statement(

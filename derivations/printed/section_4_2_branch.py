@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks.routes import states
 from rodproof.derivations.checks.thrust import domains, points
 from rodproof.derivations.checks.thrust.branch import (
     ClosedAngle,
@@ -37,6 +38,7 @@ from rodproof.derivations.notation import (
 )  # fmt: skip
 from rodproof.derivations.printed import section_4_2_terms as terms
 from rodproof.derivations.proof.prover import Identity
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import beta, iota, p, u1, u2, u3, v1, v2, v3, zeta
 from rodproof.derivations.theory.frames import phi, theta
@@ -209,7 +211,7 @@ def _roots_and_limits() -> tuple[Statement, ...]:
             Implies(
                 Every(sp.Ne(terms.sine, 0), equal(terms.sine * Prime(phi), 0)), equal(Prime(phi), 0)
             ),
-            Deduction(FLEXURE_1),
+            Routed(Deduction(FLEXURE_1), states.AZIMUTH),
         ),
         terms.statement(
             "sheared-identity", "The factor of the law on the sheared branch.",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from rodproof.derivations.checks.routes import thrust
 from rodproof.derivations.checks.thrust import domains
 from rodproof.derivations.checks.thrust.branch import (
     OnTheBranch,
@@ -44,6 +45,7 @@ from rodproof.derivations.notation import (
 from rodproof.derivations.printed import section_4_2_branch
 from rodproof.derivations.printed import section_4_2_terms as terms
 from rodproof.derivations.proof.prover import Identity
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import beta, eta, iota, p, v3, zeta
 from rodproof.derivations.theory.frames import theta
@@ -81,14 +83,16 @@ def _sheared_condition() -> tuple[Statement, ...]:
         ),
         terms.statement(
             "sheared-tensile-state", "In a sheared state v_3 exceeds 1.", "v_3 - 1 > 0",
-            positive(v[3] - 1), SharpSign(domains.SHEARED, zeta, sp.Integer(0)),
+            positive(v[3] - 1),
+            Routed(SharpSign(domains.SHEARED, zeta, sp.Integer(0)), thrust.TENSILE),
             note="m_3 = 0, so that v_3 - 1 has the sign of n_3.",
         ),
         terms.statement(
             "sheared-subcase-N-positive",
             "In a sheared state theta is below pi/2 exactly if N is positive.",
             r"\theta \in (0, \tfrac{\pi}{2}) \iff N > 0",
-            Iff(positive(terms.cosine), positive(N)), SameSides(domains.SHEARED),
+            Iff(positive(terms.cosine), positive(N)),
+            Routed(SameSides(domains.SHEARED), thrust.SIGNS),
         ),
         terms.statement(
             "sheared-v3-first", "v_3 of a sheared state through the law.",
@@ -132,10 +136,13 @@ def _conditions_on_the_moduli() -> tuple[Statement, ...]:
             "A sheared state can only exist if the first condition on the moduli holds.",
             rf"v_3 = v N \cos\theta \implies {k_tex}",
             Implies(sheared, first),
-            Necessary(
-                Equation(domains.sheared_residual(), pulled), terms.CONDITION_1,
-                condition_1_follows,
-                "F n_3 = 1/c and v_3 = a/c > 0, F > 0 by the law; so c > 0",
+            Routed(
+                Necessary(
+                    Equation(domains.sheared_residual(), pulled), terms.CONDITION_1,
+                    condition_1_follows,
+                    "F n_3 = 1/c and v_3 = a/c > 0, F > 0 by the law; so c > 0",
+                ),
+                thrust.FIRST_NEEDED,
             ),
             note="If the difference is 0 there is no sheared state either: v_3 = v_3 - 1.",
         ),
@@ -143,22 +150,25 @@ def _conditions_on_the_moduli() -> tuple[Statement, ...]:
             "moduli-condition-1", "Three forms of the first condition on the moduli.",
             rf"{k_tex} \iff {terms.A_TEX} - {terms.B_TEX} > 0 \iff \eta^2 > \zeta^2 + "
             r"\frac{\iota^2}{\beta^2}",
-            Iff(first, second, third), terms.CONDITION_1, label="eq:TTin1",
+            Iff(first, second, third), Routed(terms.CONDITION_1, thrust.FIRST), label="eq:TTin1",
         ),
         terms.statement(
             "moduli-condition-2-necessary",
             "A sheared state can only exist if its v_3 - 1 is below the limit of the straight one.",
             rf"v_3 - 1 = {terms.K_TEX}^{{-1}} \implies {terms.K_TEX}^{{-1}} < {terms.ROOT_TEX}",
             Implies(valued, limited),
-            Necessary(derived(equal(v3 - 1, 1 / kappa)), terms.CONDITION_2, condition_2_follows,
-                      "(v_3 - 1)^2 < b for every load, by exact identities and signs"),
+            Routed(
+                Necessary(derived(equal(v3 - 1, 1 / kappa)), terms.CONDITION_2, condition_2_follows,
+                          "(v_3 - 1)^2 < b for every load, by exact identities and signs"),
+                thrust.SECOND_NEEDED,
+            ),
             note="The paper expects it; it is true, by the strain limit: v_3 - 1 < "
             "beta (beta^2 eta^2 - iota^2)^{-1/2} in every state.",
         ),
         terms.statement(
             "moduli-condition-2", "Second condition on the moduli.",
-            rf"{terms.K_TEX}^{{-1}} < {terms.ROOT_TEX}", limited, terms.CONDITION_2,
-            label="eq:TTin2", introduces=True,
+            rf"{terms.K_TEX}^{{-1}} < {terms.ROOT_TEX}", limited,
+            Routed(terms.CONDITION_2, thrust.SECOND), label="eq:TTin2", introduces=True,
             note="Meant together with condition 1; without it the left side is negative.",
         ),
         terms.statement(
@@ -167,7 +177,7 @@ def _conditions_on_the_moduli() -> tuple[Statement, ...]:
             rf"\frac{{\beta^{{2p}}}}{{({terms.D_TEX})^p}} > "
             rf"\frac{{\beta^p}}{{({terms.D_TEX})^{{p/2}}}}",
             Iff(limited, in_powers),
-            SameSign(needed=(1 / sp.sqrt(b), 1 / c), hypothesis=c),
+            Routed(SameSign(needed=(1 / sp.sqrt(b), 1 / c), hypothesis=c), thrust.SECOND),
             reading="Condition 1 holds. Without it the first inequality is true and the second "
             "need not be, or its power is undefined: p = 2, beta = eta = 1, iota = 0, zeta = 2 "
             "gives -4/3 < 1 and 9/16 < 1.",

@@ -8,6 +8,7 @@ from rodproof.derivations.checks.couple import equations as rules
 from rodproof.derivations.checks.couple import states
 from rodproof.derivations.checks.couple.domains import OfState
 from rodproof.derivations.checks.couple.route import d1, d2, d3, d3_s, length, r_s
+from rodproof.derivations.checks.routes import states as measured
 from rodproof.derivations.notation import (
     Every,
     Iff,
@@ -23,6 +24,7 @@ from rodproof.derivations.notation import (
 )
 from rodproof.derivations.printed import section_4_3_helix
 from rodproof.derivations.proof.exactly import exactly
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import beta, eta, iota, p
 from rodproof.derivations.theory.couple import psi_0, s
@@ -71,7 +73,7 @@ def _equations() -> tuple[Statement, ...]:
             claim="M_2 vanishes exactly where theta is stationary.",
             latex=r"M_2 = 0 \iff \theta' = 0",
             printed=Iff(equal(M[2], 0), equal(Prime(theta), 0)),
-            check=rules.BENDING_ZERO,
+            check=Routed(rules.BENDING_ZERO, measured.ZEROS),
             note="theta' = u M_2 with u > 0; the sign of this relation does not matter here.",
         ),
         Statement(
@@ -273,7 +275,7 @@ def _length() -> tuple[Statement, ...]:
                 positive(1 - sp.Abs(iota) / (eta * sp.sqrt(_D))),
                 positive(beta**2 * eta**4 - iota**2 * (1 + eta**2)),
             ),
-            check=states.LEAST_STRETCH,
+            check=Routed(states.LEAST_STRETCH, measured.LEAST_STRETCH),
             note="At equality v_3 > 0 for every couple, and the infimum 0 is not reached. Weaker "
             "than the paper's condition for all loads, beta^2 + iota^2 < beta^2 eta^2.",
         ),
@@ -287,7 +289,7 @@ def _length() -> tuple[Statement, ...]:
             r"-\iota M_3 > 0 \iff v_3 - 1 > 0, \quad \iota M_3 > 0 \iff 1 - v_3 > 0",
             printed=Every(Implies(sp.Ne(iota, 0), sp.Ne(length - 1, 0)), *elongates),
             read_as=Every(Implies(sp.Ne(iota * M[3], 0), sp.Ne(length - 1, 0)), *elongates),
-            check=states.OnTwisted(stretched=True),
+            check=Routed(states.OnTwisted(stretched=True), measured.TWISTED),
             reading="M_3 is not 0, and v_3 > 0 (required of all configurations in Section 2.1, and "
             "not ensured by the law, see twist-length). For M_3 = 0 nothing changes whatever iota; "
             "with v_3 = -1, which the law reaches under a finite couple if |iota| > 2 eta "

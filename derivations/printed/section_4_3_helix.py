@@ -16,6 +16,7 @@ from rodproof.derivations.checks.couple.route import (
     radius,
     torsion,
 )
+from rodproof.derivations.checks.routes import states as measured
 from rodproof.derivations.notation import (
     Every,
     Iff,
@@ -29,6 +30,7 @@ from rodproof.derivations.notation import (
     v,
 )
 from rodproof.derivations.proof.exactly import exactly
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, iota, p
 from rodproof.derivations.theory.couple import psi_0, s
@@ -67,7 +69,7 @@ def _angles() -> tuple[Statement, ...]:
             claim="sin(theta) phi' vanishes somewhere if and only if M_1 = 0.",
             latex=r"\exists s\colon \sin\theta\,\varphi'(s) = 0 \iff M_1 = 0",
             printed=Iff(equal(sp.sin(theta) * Prime(phi), 0), equal(M[1], 0)),
-            check=rules.TURNING_ZERO,
+            check=Routed(rules.TURNING_ZERO, measured.ZEROS),
             note="The equivalence holds at each s, and M_1 is constant along the rod.",
         ),
         Statement(

@@ -7,6 +7,7 @@ import sympy as sp
 from rodproof.derivations.checks import dynamics as rules
 from rodproof.derivations.checks import ends
 from rodproof.derivations.checks.dynamics import H, H_t, m_s, n_s, r_tt, u_t, v_t, w
+from rodproof.derivations.checks.routes import materials
 from rodproof.derivations.notation import (
     Every,
     Partial,
@@ -23,6 +24,7 @@ from rodproof.derivations.notation import (
     v,
 )
 from rodproof.derivations.proof.prover import Identity
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.theory.dissipation import (
     a,
@@ -261,7 +263,7 @@ def _laws() -> tuple[Statement, ...]:
                 *(chain(c, ">=", 0) for c in (time, second_time, viscosity_m, viscosity_n))
             ),
             read_as=Every(*(chain(c, ">=", 0) for c in (time, viscosity_m, viscosity_n))),
-            check=rules.DissipativeConstants(),
+            check=Routed(rules.DissipativeConstants(), materials.RANGES),
             reading="beta stands in neither law. The constants that occur are alpha, mu, nu >= 0, "
             "and that is what a nonnegative dissipation needs. If beta was meant as the time in "
             "the relation for v, beta >= 0 is not enough: beta must equal alpha.",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from rodproof.derivations.checks import dna as rules
+from rodproof.derivations.checks.routes import materials
 from rodproof.derivations.notation import (
     Every,
     Iff,
@@ -18,6 +19,7 @@ from rodproof.derivations.notation import (
 )
 from rodproof.derivations.proof.exactly import exactly
 from rodproof.derivations.proof.prover import Identity
+from rodproof.derivations.proof.routed import Routed
 from rodproof.derivations.records import Statement
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, iota, p, zeta
 from rodproof.derivations.theory.constitutive import y
@@ -93,7 +95,7 @@ def _dsdna() -> tuple[Statement, ...]:
                 claim=claim,
                 latex=latex,
                 printed=equal(modulus, value),
-                check=rules.Datum(which),
+                check=Routed(rules.Datum(which), materials.DATUM),
                 note=note,
             )
             for name, which, claim, modulus, value, latex, note in rows
@@ -126,7 +128,7 @@ def _what_follows() -> tuple[Statement, ...]:
             claim="The values for dsDNA give the constants alpha, beta, gamma, iota, eta and p.",
             latex=r"\alpha, \beta, \gamma, \iota, \eta, p \ \text{given by (eq:DNA)}",
             printed=sp.Tuple(alpha, beta, gamma, iota, eta, p),
-            check=rules.Determined(),
+            check=Routed(rules.Determined(), materials.FIXED),
             correction=moduli,
             note="Four equations for six constants: they fix the four moduli and none of the "
             "constants. p does not occur, and gamma is fixed by a strain limit only.",
@@ -163,6 +165,6 @@ def _what_follows() -> tuple[Statement, ...]:
                 positive(eta**2 - 1 - iota**2 / beta**2),
                 positive(sp.Rational(442100, 447) * pN - gamma),
             ),
-            check=rules.SameSign(rules.DSDNA),
+            check=Routed(rules.SameSign(rules.DSDNA), materials.ORIENTATION),
         ),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import sympy as sp
@@ -25,7 +25,6 @@ from rodproof.derivations.proof.meaning import Point, Values
 from rodproof.derivations.symbols import (
     LOADS,
     STRAINS,
-    p,
     u3,
     v3,
 )  # fmt: skip
@@ -35,26 +34,30 @@ from rodproof.derivations.theory.thrust import N, s, x
 # -- second routes ----------------------------------------------------------------------------
 
 
-def strains_at(point: Point, load: list[Any], ctx: Any) -> list[Any]:
+def strains_at(point: Mapping[sp.Symbol, Any], load: list[Any], ctx: Any) -> list[Any]:
     """The law as it stands, with K inverted numerically: (1 + Q*^{p/2})^{-1/p} K^{-1} sigma."""
-    law = _Numbers(point, ctx)
-    power = law.c[p]
-    factor = (1 + law.dual(load) ** (power / 2)) ** (-1 / power)
-    return [factor * e for e in ctx.lu_solve(law.K, ctx.matrix(load))]
+    return _Numbers(point, ctx).under(load)
 
 
-def thrust_at(point: Point, polar: Any, ctx: Any) -> Any:
-    """N > 0 at which r' is along g_3 for the given angle, by a root search."""
+class NoShearedState(ValueError):
+    """No thrust, small or large, brings r' along g_3 at an angle."""
+
+
+def thrust_at(point: Mapping[sp.Symbol, Any], polar: Any, ctx: Any) -> Any:
+    """N > 0 at which r' is along g_3 for the given angle, by a root search.
+
+    Raises NoShearedState where r' x n keeps one sign.
+    """
+    law, sine, cosine = _Numbers(point, ctx), ctx.sin(polar), ctx.cos(polar)
 
     def off_axis(log_thrust: Any) -> Any:
         force = ctx.exp(log_thrust)
-        load = [0, 0, 0, -force * ctx.sin(polar), 0, force * ctx.cos(polar)]
-        strain = strains_at(point, load, ctx)
-        return strain[3] * ctx.cos(polar) + (1 + strain[5]) * ctx.sin(polar)
+        strain = law.under([0, 0, 0, -force * sine, 0, force * cosine])
+        return strain[3] * cosine + (1 + strain[5]) * sine
 
     low, high = ctx.mpf(-20), ctx.mpf(60)
     if not off_axis(low) * off_axis(high) < 0:
-        raise ValueError("no sheared state at this angle")
+        raise NoShearedState("no sheared state at this angle")
     while high - low > 1:
         middle = (low + high) / 2
         low, high = (middle, high) if off_axis(low) * off_axis(middle) > 0 else (low, middle)
@@ -63,10 +66,11 @@ def thrust_at(point: Point, polar: Any, ctx: Any) -> Any:
 
 def cosine_at(point: Point, thrust: Any, ctx: Any) -> Any:
     """cos theta of the sheared state under a given thrust, by a root search in the angle."""
+    law = _Numbers(point, ctx)
 
     def off_axis(polar: Any) -> Any:
         load = [0, 0, 0, -thrust * ctx.sin(polar), 0, thrust * ctx.cos(polar)]
-        strain = strains_at(point, load, ctx)
+        strain = law.under(load)
         return strain[3] * ctx.cos(polar) / ctx.sin(polar) + 1 + strain[5]
 
     found = ctx.findroot(off_axis, (ctx.mpf(10) ** -10, ctx.pi / 2), solver="anderson")
