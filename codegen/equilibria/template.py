@@ -39,19 +39,22 @@ def _law(m: Numbers, n: Numbers, c: Constants, linear: bool) -> tuple[Numbers, N
     if linear:
         found = _linear_strains((*m, *n), c)
         return found[:3], found[3:]
-    u, v = strains(_stack(m), _stack(n), c)
-    if u.ndim == v.ndim == 1:
-        return u.tolist(), v.tolist()
+    u, v = strains(*_given(m, n), c)
     return u, v  # type: ignore[return-value]
+
+
+def _given(m: Numbers, n: Numbers) -> tuple[Any, Any]:
+    """Loads as the law takes them: of one rod as tuples, which is quick, of many as arrays."""
+    if all(type(x) is float for x in (*m, *n)):
+        return tuple(m), tuple(n)
+    return _stack(m), _stack(n)
 
 
 def _tangent(m: Numbers, n: Numbers, c: Constants, linear: bool) -> Numbers:
     """The entries of d(u, v)/d(m, n) on and above the diagonal, row by row."""
     if linear:
         return _linear_compliance(c)
-    soft = compliance(_stack(m), _stack(n), c)
-    if soft.ndim == 2:
-        soft = soft.tolist()
+    soft = compliance(*_given(m, n), c)
     return [soft[i][j] for i in range(6) for j in range(i, 6)]
 
 
@@ -187,6 +190,8 @@ def _at(
 
 def _off_the_pole(theta: Number, sine: Number) -> None:
     """Refuses sin(theta) = 0, as far as theta as a float can tell, where phi' is not determined."""
+    if isinstance(theta, float) and abs(sine) > max(2**-51 * abs(theta), 2.0**-1000):
+        return
     bound = np.maximum(2**-51 * np.abs(theta), 2.0**-1000)
     bad = np.flatnonzero(~(np.abs(sine) > bound))
     if bad.size:

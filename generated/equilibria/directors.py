@@ -931,19 +931,22 @@ def _law(m: Numbers, n: Numbers, c: Constants, linear: bool) -> tuple[Numbers, N
     if linear:
         found = _linear_strains((*m, *n), c)
         return found[:3], found[3:]
-    u, v = strains(_stack(m), _stack(n), c)
-    if u.ndim == v.ndim == 1:
-        return u.tolist(), v.tolist()
+    u, v = strains(*_given(m, n), c)
     return u, v  # type: ignore[return-value]
+
+
+def _given(m: Numbers, n: Numbers) -> tuple[Any, Any]:
+    """Loads as the law takes them: of one rod as tuples, which is quick, of many as arrays."""
+    if all(type(x) is float for x in (*m, *n)):
+        return tuple(m), tuple(n)
+    return _stack(m), _stack(n)
 
 
 def _tangent(m: Numbers, n: Numbers, c: Constants, linear: bool) -> Numbers:
     """The entries of d(u, v)/d(m, n) on and above the diagonal, row by row."""
     if linear:
         return _linear_compliance(c)
-    soft = compliance(_stack(m), _stack(n), c)
-    if soft.ndim == 2:
-        soft = soft.tolist()
+    soft = compliance(*_given(m, n), c)
     return [soft[i][j] for i in range(6) for j in range(i, 6)]
 
 
