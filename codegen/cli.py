@@ -305,8 +305,15 @@ def measure(
     integrators: Annotated[
         bool, typer.Option("--integrators", help="Integrators of a rod in equilibrium instead.")
     ] = False,
+    atlas: Annotated[
+        bool, typer.Option("--atlas", help="The stability atlas instead: where it is right.")
+    ] = False,
+    replay: Annotated[
+        str | None,
+        typer.Option(metavar="SPOT", help="Compute one spot of the atlas again and show it."),
+    ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="File; docs/report/measurement.json by default.")
+        Path | None, typer.Option(help="File; docs/report/ measurement.json or atlas.json.")
     ] = None,
     as_json: Json = False,
     jobs: Jobs = CORES,
@@ -314,16 +321,30 @@ def measure(
 ) -> None:
     """Measure error and run time of every form, to JSON; goes on where it was broken off."""
     from rodproof.codegen import places
-    from rodproof.codegen.measure import survey
+    from rodproof.codegen.measure import atlas as atlases
+    from rodproof.codegen.measure import atlas_table, survey
+    from rodproof.derivations import workers
 
     if integrators:
         _measure_integrators(quick, out, as_json, jobs, scheduler)
         return
-
-    with one_sentence():
-        path = out or places.checkout().measurement(quick=quick)
-        with show.progress("measure", kept=True) as tell:
-            survey.measure(path, survey.settings(quick=quick), tell)
+    if replay is not None:
+        with one_sentence():
+            rows = atlas_table.story(atlases.replay(replay))
+        show.as_json(dict(rows)) if as_json else show.table(("", ""), rows)
+        return
+    with one_sentence(), one_sentence(workers.ERRORS):
+        path = out
+        if path is None:
+            here = places.checkout()
+            path = here.atlas(quick=quick) if atlas else here.measurement(quick=quick)
+        with show.progress("atlas" if atlas else "measure", kept=True) as tell:
+            if atlas:
+                wanted = atlases.settings(quick=quick)
+                atlases.measure(path, wanted, tell, jobs=jobs, scheduler=scheduler)
+            else:
+                asked = survey.settings(quick=quick)
+                survey.measure(path, asked, tell, jobs=jobs, scheduler=scheduler)
     _written([path], as_json)
 
 
@@ -353,7 +374,7 @@ def report(
     out: Annotated[Path | None, typer.Option(help="Folder; beside the data by default.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Draw the pages and the plots of measurements, without measuring, and pictures of the rod."""
+    """Draw pages of measurements and of the atlas, without measuring; pictures of the rod."""
     from rodproof.codegen import pictures, places
     from rodproof.codegen.measure import report as reports
 

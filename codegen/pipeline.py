@@ -42,7 +42,7 @@ def run(places: Places, jobs: int, stage: Stage) -> Outcome:
     evidence = check(jobs, stage)
     generated = write_modules(places, stage)
     documents = write_documents(places, evidence, stage)
-    reports = measure(places, stage)
+    reports = measure(places, jobs, stage)
     return Outcome(derived, evidence, generated, documents, reports)
 
 
@@ -86,12 +86,12 @@ def write_documents(
     return tuple(written)
 
 
-def measure(places: Places, stage: Stage) -> tuple[Path, ...]:
+def measure(places: Places, jobs: int, stage: Stage) -> tuple[Path, ...]:
     """A quick measurement to JSON, the report drawn from it, and pictures of the rod."""
     from rodproof.codegen import pictures  # what is drawn and measured is new just now
     from rodproof.codegen.measure import report, survey
 
     data = places.measurement(quick=True)
     with stage("measure") as tell:
-        survey.measure(data, survey.settings(quick=True), tell)
+        survey.measure(data, survey.settings(quick=True), tell, jobs=jobs)
     return (data, *report.report(data, data.parent), *pictures.draw(data.parent))

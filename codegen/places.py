@@ -34,6 +34,9 @@ class Places:
     def integrators(self, *, quick: bool) -> Path:
         return self.report(quick=quick) / "integrators.json"
 
+    def atlas(self, *, quick: bool) -> Path:
+        return self.report(quick=quick) / "atlas.json"
+
     def shown(self, path: Path) -> str:
         """A path as a reader in the root would type it."""
         return str(path.relative_to(self.root) if path.is_relative_to(self.root) else path)

@@ -73,18 +73,36 @@ def progress(title: str, *, kept: bool = False) -> Iterator[Tell]:
         yield _silent
         return
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
 
     look = (
         TextColumn("{task.description:<10}"),
         BarColumn(),
         MofNCompleteColumn(),
         TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
         TextColumn("{task.fields[step]}"),
     )
-    with Progress(*look, console=Console(stderr=True), transient=not kept) as bars:
+    slow = 600.0  # seconds whose pace the time left is estimated by
+    with Progress(
+        *look, console=Console(stderr=True), transient=not kept, speed_estimate_period=slow
+    ) as bars:
         task = bars.add_task(title, total=None, step="")
-        yield lambda name, done, total: bars.update(task, completed=done, total=total, step=name)
+
+        def tell(name: str, done: int, total: int) -> None:
+            if bars.tasks[0].total is None:  # what was done before does not set the pace
+                bars.reset(task, completed=done, total=total)
+            bars.update(task, completed=done, total=total, step=name)
+
+        yield tell
 
 
 def _silent(name: str, done: int, total: int) -> None:

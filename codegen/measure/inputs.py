@@ -4,13 +4,16 @@ ordinary  constants within a factor of four of each other, p from 0.5 to 10, str
 extreme   loads from 1e-160 to 1e160, gamma from 1e-200 to 1e200, p from 0.3 to 1000, strains from
           1e-160, and zero; for single precision the same exponents divided by eight
 limit     strains within 1e-3 to 1e-13 of the limit (1e-6 in single), loads up to 1e15 gamma
-chiral    beta^2 eta^2 - iota^2 small: 1 - |iota|/(beta eta) from 1e-1 to 1e-10 (1e-4 in single)
+chiral    beta^2 eta^2 - iota^2 small: 1 - |iota|/(beta eta) from 1e-1 to 1e-10 (1e-4 in single);
+          only for scenes with coupling
+
+A scene's points are the full rod's with what the scene does not have left out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Literal
 
 import numpy as np
@@ -18,9 +21,9 @@ from flint import arb
 from numpy.typing import NDArray
 
 from rodproof.codegen.measure import oracle
+from rodproof.codegen.measure.subjects import Side, Subject
 
 Kind = Literal["ordinary", "extreme", "limit", "chiral"]
-Side = Literal["loads", "strains"]
 KINDS: tuple[Kind, ...] = ("ordinary", "extreme", "limit", "chiral")
 
 Array = NDArray[np.floating]
@@ -53,31 +56,34 @@ class Batch:
         return values if side == "loads" else [*values[:5], values[5] - 1]
 
 
+def kinds(subject: Subject) -> tuple[Kind, ...]:
+    """The kinds of input that a scene has."""
+    return KINDS if subject.coupled else KINDS[:-1]
+
+
 @oracle.exactly
 def batches(
-    kind: Kind, side: Side, dtype: type[np.floating], seed: int, count: int, points: int
+    subject: Subject,
+    function: str,
+    kind: Kind,
+    dtype: type[np.floating],
+    seed: int,
+    count: int,
+    points: int,
 ) -> tuple[Batch, ...]:
     """``count`` sets of constants with ``points`` points each."""
+    side = subject.side(function)
     rng = np.random.default_rng([seed, KINDS.index(kind), side == "loads", np.finfo(dtype).bits])
     draw = _draw_loads if side == "loads" else _draw_strains
-    return tuple(
-        _batch(rng, kind, _draw_constants(rng, kind, dtype), dtype, points, draw)
-        for _ in range(count)
-    )
-
-
-def _batch(
-    rng: np.random.Generator,
-    kind: Kind,
-    constants: tuple[float, ...],
-    dtype: type[np.floating],
-    points: int,
-    draw: Callable[..., Array],
-) -> Batch:
-    rows = np.stack([draw(rng, kind, constants, dtype) for _ in range(points)], axis=1)
-    if kind == "extreme":  # rest is a point like any other
-        rows[:, 0] = [0, 0, 0, 0, 0, 1] if draw is _draw_strains else 0
-    return Batch(constants, rows[:3].copy(), rows[3:].copy())
+    made = []
+    for _ in range(count):
+        constants = subject.restricted(_draw_constants(rng, kind, dtype))
+        columns = [draw(rng, kind, constants, dtype, subject.loads) for _ in range(points)]
+        rows = np.stack(columns, axis=1)
+        if kind == "extreme":  # rest is a point like any other
+            rows[:, 0] = [0, 0, 0, 0, 0, int(side == "strains")]
+        made.append(Batch(constants, rows[:3].copy(), rows[3:].copy()))
+    return tuple(made)
 
 
 def _log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
@@ -104,30 +110,47 @@ def _draw_constants(
     return drawn
 
 
-def _direction(rng: np.random.Generator, kind: Kind) -> Array:
-    """A unit vector; at extremes some components are missing or tiny."""
-    w = rng.normal(size=6)
+def _direction(rng: np.random.Generator, kind: Kind, live: tuple[int, ...]) -> Array:
+    """A unit vector of live components; at extremes some of them are missing or tiny."""
+    w: Array = rng.normal(size=6)
     if kind == "extreme":
         w *= np.where(rng.random(6) < 0.25, 0.0, 10 ** rng.choice([0.0, 0.0, -9.0], size=6))
+    w = only(w, live)
     length = float(np.linalg.norm(w))
-    return w / length if length else _direction(rng, kind)
+    return w / length if length else _direction(rng, kind, live)
 
 
-def _factor(constants: tuple[float, ...]) -> Array:
-    """L with K = L L^T, in doubles: it only aims the points."""
+def only(values: Array, live: tuple[int, ...]) -> Array:
+    """Six components with those zero that are not live."""
+    return np.where(np.isin(np.arange(6), live), values, 0.0)
+
+
+def coupling(constants: tuple[float, ...]) -> Array:
+    """L with K = L L^T: what makes a whitened direction a load."""
     alpha, beta, zeta, eta, iota, _, _ = constants
-    L = np.diag(
-        [alpha, alpha, beta, zeta, zeta, np.sqrt((beta * eta - iota) * (beta * eta + iota)) / beta]
-    )
+    share = Fraction(iota) / (Fraction(beta) * Fraction(eta))  # exact: 1 - share^2 cancels
+    L = np.diag([alpha, alpha, beta, zeta, zeta, eta * float(1 - share**2) ** 0.5])
     L[5, 2] = iota / beta
     return L
 
 
+def strain_along(constants: tuple[float, ...], direction: Array) -> Array:
+    """L^{-T} of a whitened direction: the strain from rest that it is."""
+    L = coupling(constants)
+    strain = direction / np.diag(L)
+    strain[2] -= L[5, 2] / L[2, 2] * strain[5]
+    return strain
+
+
 def _draw_loads(
-    rng: np.random.Generator, kind: Kind, constants: tuple[float, ...], dtype: type[np.floating]
+    rng: np.random.Generator,
+    kind: Kind,
+    constants: tuple[float, ...],
+    dtype: type[np.floating],
+    live: tuple[int, ...],
 ) -> Array:
     gamma, single = constants[5], dtype is np.float32
-    direction = _factor(constants) @ _direction(rng, kind)
+    direction = only(coupling(constants) @ _direction(rng, kind, live), live)
     if kind == "extreme" and rng.random() < 0.5:
         size = _log_uniform(rng, *((-20, 20) if single else (-160, 160)))
         return (direction / np.abs(direction).max() * size).astype(dtype)
@@ -136,7 +159,11 @@ def _draw_loads(
 
 
 def _draw_strains(
-    rng: np.random.Generator, kind: Kind, constants: tuple[float, ...], dtype: type[np.floating]
+    rng: np.random.Generator,
+    kind: Kind,
+    constants: tuple[float, ...],
+    dtype: type[np.floating],
+    live: tuple[int, ...],
 ) -> Array:
     single = dtype is np.float32
     if kind == "limit":
@@ -145,11 +172,17 @@ def _draw_strains(
         x = _log_uniform(rng, -20 if single else -160, 0)
     else:
         x = rng.uniform(0.01, 0.98)
-    strain = np.linalg.solve(_factor(constants).T, _direction(rng, kind) * x)
+    strain = strain_along(constants, _direction(rng, kind, live) * x)
     strain = (strain if strain[5] > -1 else -strain) + np.eye(6)[5]  # v3 > 0
     strain = strain.astype(dtype)
+    if not inside(constants, strain):  # rounded out of the domain: draw again
+        return _draw_strains(rng, kind, constants, dtype, live)
+    return strain
+
+
+@oracle.exactly
+def inside(constants: tuple[float, ...], strain: Array) -> bool:
+    """Whether a strain (six numbers, v3 as it is) is below the limit, exactly."""
     exact = Batch(constants, strain[:3, None], strain[3:, None])
     whitened = oracle.whitened_strain(exact.exact_constants(), exact.exact(0, "strains"))
-    if not oracle.norm(whitened) < 1:  # rounded out of the domain: draw again
-        return _draw_strains(rng, kind, constants, dtype)
-    return strain
+    return bool(oracle.norm(whitened) < 1)

@@ -1,4 +1,4 @@
-"""The six functions in ball arithmetic (Arb), at exact inputs, to a certified relative accuracy.
+"""The functions in ball arithmetic (Arb), at exact inputs, to a certified relative accuracy.
 
 A strain is given from rest, eps = (u1, u2, u3, v1, v2, v3 - 1), a load as sigma = (m, n). With the
 Cholesky factor K = L L^T the whitened strain L^T eps has the length x = Q^{1/2} and the whitened
@@ -8,6 +8,9 @@ load L^{-1} sigma the length y = (Q*)^{1/2}; in these coordinates the law is rad
     sigma = gamma g K eps,  g = (1 - x^p)^{-1/p}
     W  = gamma x^2/2 2F1(1/p, 2/p; 1 + 2/p; x^p)
     W* = y^2/(2 gamma) 2F1(1/p, 2/p; 1 + 2/p; -(y/gamma)^p)
+
+A constrained rod is this one without the loads that are reactions (`theory.constrained`): its law
+does not hold the constants that went to infinity, which may have any value here.
 """
 
 from __future__ import annotations
@@ -20,11 +23,15 @@ from typing import ParamSpec, TypeVar
 from flint import arb, ctx
 
 Vector = list[arb]
+Whitener = Callable[[Sequence[arb]], Vector]
 
 #: Bits of its largest component that every component of an answer is certain to. Fifty digits
 #: are 166 bits; the rest is for components of other units and for whitening near D = 0.
 ACCURACY = 280
-PRECISIONS = (400, 1600, 6400, 25600)
+#: The same for an answer that only serves to see what moving an input by an ulp does.
+MOVED = 170
+#: Bits to work with, beyond those wanted, before giving up.
+SPARE = (120, 1320, 6120, 25320)
 
 
 Parameters = ParamSpec("Parameters")
@@ -36,7 +43,7 @@ def exactly(function: Callable[Parameters, Result]) -> Callable[Parameters, Resu
 
     @wraps(function)
     def wrapped(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Result:
-        with ctx.workprec(PRECISIONS[0]):
+        with ctx.workprec(ACCURACY + SPARE[0]):
             return function(*args, **kwargs)
 
     return wrapped
@@ -67,16 +74,37 @@ class Constants:
 
 def whitened_strain(c: Constants, e: Sequence[arb]) -> Vector:
     """L^T eps."""
-    third = c.beta * e[2] + c.iota / c.beta * e[5]
-    sixth = c.gap.sqrt() / c.beta * e[5]
-    return [c.alpha * e[0], c.alpha * e[1], third, c.zeta * e[3], c.zeta * e[4], sixth]
+    return whitener_of_strains(c)(e)
 
 
 def whitened_load(c: Constants, s: Sequence[arb]) -> Vector:
     """L^{-1} sigma."""
-    third = s[2] / c.beta
-    sixth = (c.beta * s[5] - c.iota * third) / c.gap.sqrt()
-    return [s[0] / c.alpha, s[1] / c.alpha, third, s[3] / c.zeta, s[4] / c.zeta, sixth]
+    return whitener_of_loads(c)(s)
+
+
+def whitener_of_strains(c: Constants, *, worst: bool = False) -> Whitener:
+    """L^T, with what depends on the constants alone done once; entrywise positive for ``worst``."""
+    coupling, stretch = c.iota / c.beta, c.gap.sqrt() / c.beta
+    coupling = abs(coupling) if worst else coupling
+
+    def whiten(e: Sequence[arb]) -> Vector:
+        third, sixth = c.beta * e[2] + coupling * e[5], stretch * e[5]
+        return [c.alpha * e[0], c.alpha * e[1], third, c.zeta * e[3], c.zeta * e[4], sixth]
+
+    return whiten
+
+
+def whitener_of_loads(c: Constants, *, worst: bool = False) -> Whitener:
+    """L^{-1}, likewise."""
+    root = c.gap.sqrt()
+    own, other = c.beta / root, c.iota / (c.beta * root)
+    other = -abs(other) if worst else other
+
+    def whiten(s: Sequence[arb]) -> Vector:
+        third, sixth = s[2] / c.beta, own * s[5] - other * s[2]
+        return [s[0] / c.alpha, s[1] / c.alpha, third, s[3] / c.zeta, s[4] / c.zeta, sixth]
+
+    return whiten
 
 
 def norm(vector: Sequence[arb]) -> arb:
@@ -98,9 +126,25 @@ def solve(c: Constants, s: Sequence[arb]) -> Vector:
     return [s[0] / a, s[1] / a, third, s[3] / z, s[4] / z, sixth]
 
 
-def matrix(operator: Callable[[Constants, Sequence[arb]], Vector], c: Constants) -> list[Vector]:
-    """The columns of a linear operator."""
-    return [operator(c, [arb(int(i == j)) for i in range(6)]) for j in range(6)]
+def at_rest(c: Constants) -> list[Vector]:
+    """K."""
+    return _coupled((c.alpha**2, c.beta**2, c.zeta**2, c.eta**2), c.iota)
+
+
+def inverse_at_rest(c: Constants) -> list[Vector]:
+    """K^{-1}."""
+    gap = c.gap
+    own = (1 / c.alpha**2, c.eta**2 / gap, 1 / c.zeta**2, c.beta**2 / gap)
+    return _coupled(own, -c.iota / gap)
+
+
+def _coupled(own: Sequence[arb], coupling: arb) -> list[Vector]:
+    """A symmetric matrix that couples the third and the sixth component."""
+    rows = [[arb(0)] * 6 for _ in range(6)]
+    for i, k in enumerate((0, 0, 1, 2, 2, 3)):
+        rows[i][i] = own[k]
+    rows[2][5] = rows[5][2] = coupling
+    return rows
 
 
 def strains(c: Constants, s: Sequence[arb]) -> Vector:
@@ -136,7 +180,7 @@ def stiffness(c: Constants, e: Sequence[arb]) -> Vector:
     g = c.gamma * (1 - power) ** (-1 / c.p)
     ratio = power / (1 - power)
     k = [arb(0)] * 6 if x == 0 else [entry / x for entry in apply(c, e)]
-    K = matrix(apply, c)
+    K = at_rest(c)
     return [g * (K[i][j] + ratio * k[i] * k[j]) for i in range(6) for j in range(6)]
 
 
@@ -147,22 +191,43 @@ def compliance(c: Constants, s: Sequence[arb]) -> Vector:
     whole = c.gamma**c.p + power
     f, ratio = whole ** (-1 / c.p), power / whole
     z = [arb(0)] * 6 if y == 0 else [entry / y for entry in solve(c, s)]
-    C = matrix(solve, c)
+    C = inverse_at_rest(c)
     return [f * (C[i][j] - ratio * z[i] * z[j]) for i in range(6) for j in range(6)]
+
+
+def stiffness_at_loads(c: Constants, s: Sequence[arb]) -> Vector:
+    """d sigma/d eps by rows at the strain of a load: (K + (y/gamma)^p k k^T)/f, k = sigma/y."""
+    y = norm(whitened_load(c, s))
+    power = _power(y, c.p)
+    g = (c.gamma**c.p + power) ** (1 / c.p)
+    ratio = power / c.gamma**c.p
+    k = [arb(0)] * 6 if y == 0 else [entry / y for entry in s]
+    K = at_rest(c)
+    return [g * (K[i][j] + ratio * k[i] * k[j]) for i in range(6) for j in range(6)]
+
+
+def limit_gap(c: Constants, s: Sequence[arb]) -> Vector:
+    """1 - x^p at the strain of a load."""
+    whole = c.gamma**c.p
+    return [whole / (whole + _power(norm(whitened_load(c, s)), c.p))]
 
 
 Function = Callable[[Constants, Sequence[arb]], Vector]
 
 
-def certain(function: Function, c: Constants, argument: Sequence[arb]) -> Vector:
-    """The function's components, known to ``ACCURACY`` bits of the largest."""
-    for bits in PRECISIONS:
-        with ctx.workprec(bits):
+def certain(
+    function: Function, c: Constants, argument: Sequence[arb], accuracy: int = ACCURACY
+) -> Vector:
+    """The function's components, known to ``accuracy`` bits of the largest."""
+    for spare in SPARE:
+        with ctx.workprec(accuracy + spare):
             answer = function(c, argument)
-            allowed = max(abs(entry) for entry in answer) * arb(2) ** -ACCURACY
+            allowed = max(abs(entry) for entry in answer) * arb(2) ** -accuracy
             if all(entry.is_finite() and entry.rad() <= allowed for entry in answer):
                 return answer
-    raise ArithmeticError(f"{PRECISIONS[-1]} bits are not enough for {function.__name__} at {c}")
+    raise ArithmeticError(
+        f"{accuracy + SPARE[-1]} bits are not enough for {function.__name__} at {c}"
+    )
 
 
 def _power(base: arb, exponent: arb) -> arb:

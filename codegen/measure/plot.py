@@ -1,9 +1,8 @@
-"""The front of error against time, one panel a function, drawn from a stored measurement."""
+"""The fronts of error against time, a picture a scene and a panel a function, from stored data."""
 
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rodproof.codegen.files import write_bytes
-from rodproof.codegen.measure.records import FUNCTIONS, Measurement
+from rodproof.codegen.measure.fronts import NO_NUMBER, Mark, front, marks
+from rodproof.codegen.measure.records import Measurement
 
 #: Errors outside are drawn on the edge: below lies what a double cannot show, above no number.
 LEAST, MOST = 1e-3, 1e17
-NO_NUMBER = 1e18
+COLUMNS = 3
 
 STYLES: dict[str, tuple[str, str]] = {
     "stable float64": ("#c1272d", "o"),
@@ -30,68 +30,49 @@ STYLES: dict[str, tuple[str, str]] = {
 }
 SETTINGS: Any = {
     "svg.hashsalt": "rodproof",
+    "svg.fonttype": "none",
+    "font.family": ["DejaVu Sans", "sans-serif"],
     "font.size": 8.5,
     "axes.spines.top": False,
     "axes.spines.right": False,
 }
 
 
-@dataclass(frozen=True)
-class Mark:
-    """A form on a panel: time per point, worst and median error in ulps of a double."""
-
-    form: str
-    time: float
-    worst: float
-    median: float
-
-
-def draw(measurement: Measurement, sample: str, folder: Path) -> list[Path]:
-    """Write ``front-SAMPLE.svg`` and ``.png``."""
+def draw(measurement: Measurement, scene: str, folder: Path) -> list[Path]:
+    """Write ``front-SCENE.svg``."""
+    functions = measurement.functions(scene)
+    height = -(-len(functions) // COLUMNS)
     with matplotlib.rc_context(SETTINGS):
-        figure = Figure(figsize=(10, 6.6), layout="constrained")
-        grid = figure.subplots(2, 3, sharex=True, sharey=True)
-        for panel, function in zip(grid.flat, FUNCTIONS, strict=True):
-            _panel(panel, function, marks(measurement, function, sample))
-        for panel in grid[1]:
+        tall = 1.5 + 2.9 * height
+        figure = Figure(figsize=(10.5, tall))
+        grid = figure.subplots(height, COLUMNS, sharex=True, sharey=True, squeeze=False)
+        figure.subplots_adjust(
+            left=0.08, right=0.99, bottom=0.85 / tall, top=1 - 0.9 / tall, wspace=0.06, hspace=0.22
+        )
+        for panel in grid.flat[len(functions) :]:
+            panel.set_visible(False)
+        for panel, function in zip(grid.flat, functions, strict=False):
+            _panel(
+                panel,
+                function,
+                marks(measurement, scene, function, "ordinary"),
+                marks(measurement, scene, function, "all"),
+            )
+        for panel in grid.flat[max(0, len(functions) - COLUMNS) : len(functions)]:
             panel.set_xlabel("time per point, ns")
+            panel.tick_params(labelbottom=True)
         handles, labels = grid[0, 0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), frameon=False)
-        figure.suptitle(_title(measurement, sample))
-        figure.supylabel("error, ulps of a double: mark = worst, tick = median")
-        return [
-            _saved(figure, folder / f"front-{sample}.svg", {"Date": None}),
-            _saved(figure, folder / f"front-{sample}.png", {"Software": None}),
-        ]
+        figure.legend(handles, labels, loc="lower center", ncols=8, frameon=False)
+        figure.suptitle(_title(measurement, scene))
+        figure.supylabel("worst error, ulps of a double")
+        return [_saved(figure, folder / f"front-{scene}.svg")]
 
 
-def marks(measurement: Measurement, function: str, sample: str) -> list[Mark]:
-    """What is known of each form, in the order of the styles."""
-    found = []
-    for form in STYLES:
-        error = measurement.error(function, form, sample)
-        time = measurement.time(function, form, measurement.settings.timed_points)
-        if error and time:
-            worst = NO_NUMBER if error.failures or error.worst is None else error.worst
-            median = NO_NUMBER if error.median is None else error.median
-            found.append(Mark(form, time.nanoseconds, worst, median))
-    return found
-
-
-def front(found: list[Mark]) -> list[Mark]:
-    """The marks that no other beats in both time and worst error, fastest first."""
-    best: list[Mark] = []
-    for mark in sorted(found, key=lambda mark: (mark.time, mark.worst)):
-        if not best or mark.worst < best[-1].worst:
-            best.append(mark)
-    return best
-
-
-def _panel(panel: Axes, function: str, found: list[Mark]) -> None:
+def _panel(panel: Axes, function: str, ordinary: list[Mark], every: list[Mark]) -> None:
     panel.set(xscale="log", yscale="log", ylim=(LEAST / 3, NO_NUMBER * 5), title=function)
     panel.set_yticks([10.0**k for k in range(-3, 16, 3)])
     panel.axhspan(MOST, NO_NUMBER * 5, color="#f4e3e1", lw=0)
-    panel.axhline(1, color="#dddddd", lw=0.8, zorder=0)
+    panel.axhline(8, color="#dddddd", lw=0.8, zorder=0)
     panel.text(
         0.985,
         0.965,
@@ -102,29 +83,25 @@ def _panel(panel: Axes, function: str, found: list[Mark]) -> None:
         color="#a05050",
         fontsize=7,
     )
-    edge = front(found)
-    panel.step(
-        [m.time for m in edge],
-        [_clip(m.worst) for m in edge],
-        where="post",
-        color="#cccccc",
-        lw=1.2,
-        zorder=1,
-    )
-    for mark in found:
-        colour, marker = STYLES[mark.form]
-        worst, median = _clip(mark.worst), _clip(mark.median)
-        panel.plot([mark.time] * 2, [median, worst], color=colour, lw=1, alpha=0.6, zorder=2)
-        panel.plot(mark.time, median, marker="_", color=colour, ms=7, zorder=2)
+    for found, line in ((ordinary, ":"), (every, "-")):
+        edge = front(found)
+        panel.step(
+            [m.time for m in edge],
+            [_clip(m.worst) for m in edge],
+            where="post",
+            color="#bbbbbb",
+            ls=line,
+            lw=1.1,
+            zorder=1,
+        )
+    for usual, worst in zip(ordinary, every, strict=True):
+        colour, marker = STYLES[usual.form]
+        ends = [_clip(usual.worst), _clip(worst.worst)]
+        panel.plot([usual.time] * 2, ends, color=colour, lw=1, alpha=0.5, zorder=2)
+        panel.plot(usual.time, _clip(usual.median), marker="_", color=colour, ms=6, zorder=2)
+        panel.plot(usual.time, ends[0], marker, mfc="white", mec=colour, ms=5.5, zorder=3)
         panel.plot(
-            mark.time,
-            worst,
-            marker=marker,
-            color=colour,
-            ms=6.5,
-            ls="none",
-            label=mark.form,
-            zorder=3,
+            worst.time, ends[1], marker, color=colour, ms=6.5, ls="none", label=usual.form, zorder=4
         )
 
 
@@ -132,18 +109,18 @@ def _clip(error: float) -> float:
     return max(error, LEAST) if error < NO_NUMBER else NO_NUMBER
 
 
-def _title(measurement: Measurement, sample: str) -> str:
+def _title(measurement: Measurement, scene: str) -> str:
     machine, asked = measurement.machine, measurement.settings
     points = asked.batches * asked.points
     return (
-        f"full_rod on {sample} inputs: error at {points} points, time on blocks of "
-        f"{asked.timed_points}\n{machine.processor}, one thread, Python {machine.python}, "
-        f"NumPy {machine.numpy}"
+        f"{scene}: filled marks are all inputs, beyond what is inherent; open ones ordinary inputs,"
+        f" ticks their median\n{points} points of each kind, times on blocks of "
+        f"{asked.timed_points}; {machine.processor}, one thread, NumPy {machine.numpy}"
     )
 
 
-def _saved(figure: Figure, path: Path, metadata: dict[str, None]) -> Path:
+def _saved(figure: Figure, path: Path) -> Path:
     buffer = io.BytesIO()
-    figure.savefig(buffer, format=path.suffix[1:], dpi=130, metadata=metadata)
+    figure.savefig(buffer, format="svg", metadata={"Date": None})
     write_bytes(path, buffer.getvalue())
     return path

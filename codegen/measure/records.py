@@ -6,20 +6,16 @@ import json
 import math
 import os
 import platform
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, fields
+from functools import cached_property
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any, TypeVar
 
 from rodproof.codegen.files import write_text
 
-FUNCTIONS = (
-    "strains",
-    "loads",
-    "stored_energy",
-    "complementary_energy",
-    "stiffness",
-    "compliance",
-)
+Row = TypeVar("Row")
 
 
 @dataclass(frozen=True)
@@ -38,7 +34,10 @@ class Machine:
 
 @dataclass(frozen=True)
 class Settings:
-    """What was asked for: the same settings on the same code give the same errors."""
+    """What was asked for: the same settings on the same code give the same errors.
+
+    ``batches`` sets of constants with ``points`` points each for every kind of input.
+    """
 
     seed: int
     quick: bool
@@ -46,18 +45,18 @@ class Settings:
     points: int
     rounds: int
     timed_points: int
-    digest: str  # of the generated module that was measured
 
 
 @dataclass(frozen=True)
 class ErrorRow:
-    """The error of one form of one function over one sample.
+    """The error of one form of one function of a scene over one sample.
 
     Errors are in ulps of a double whatever the form's own precision; ``beyond`` is in ulps of the
     form's own precision: the worst error less what rounding its inputs and its output explains.
     None stands for an error that is not finite.
     """
 
+    scene: str
     function: str
     form: str
     sample: str
@@ -67,13 +66,13 @@ class ErrorRow:
     median: float | None
     beyond: float | None
     over_eight: int
-    inherent: float | None
 
 
 @dataclass(frozen=True)
 class TimeRow:
     """Time per point of one form of one function, and its ratio to the stable double form."""
 
+    scene: str
     function: str
     form: str
     points: int
@@ -83,28 +82,36 @@ class TimeRow:
 
 @dataclass(frozen=True)
 class Measurement:
-    """A whole run; ``forms`` says in words what each form is."""
+    """A whole run; ``forms`` says in words what each form is, ``scenes`` each module's digest."""
 
     machine: Machine
     settings: Settings
     forms: dict[str, str]
+    scenes: dict[str, str]
     errors: tuple[ErrorRow, ...] = ()
     times: tuple[TimeRow, ...] = ()
 
-    def done(self) -> frozenset[str]:
-        """The functions that need not be measured again."""
-        return frozenset(row.function for row in self.times)
+    def functions(self, scene: str) -> tuple[str, ...]:
+        """The functions of a scene that were measured, in order."""
+        return tuple(dict.fromkeys(row.function for row in self.times if row.scene == scene))
 
-    def extended(self, errors: list[ErrorRow], times: list[TimeRow]) -> Measurement:
-        return replace(self, errors=(*self.errors, *errors), times=(*self.times, *times))
+    def samples(self, scene: str) -> tuple[str, ...]:
+        """The kinds of input of a scene, in order."""
+        return tuple(dict.fromkeys(row.sample for row in self.errors if row.scene == scene))
 
-    def error(self, function: str, form: str, sample: str) -> ErrorRow | None:
-        keys = (function, form, sample)
-        return next((e for e in self.errors if (e.function, e.form, e.sample) == keys), None)
+    @cached_property
+    def _errors(self) -> dict[tuple[str, str, str, str], ErrorRow]:
+        return {(e.scene, e.function, e.form, e.sample): e for e in self.errors}
 
-    def time(self, function: str, form: str, points: int) -> TimeRow | None:
-        keys = (function, form, points)
-        return next((t for t in self.times if (t.function, t.form, t.points) == keys), None)
+    @cached_property
+    def _times(self) -> dict[tuple[str, str, str, int], TimeRow]:
+        return {(t.scene, t.function, t.form, t.points): t for t in self.times}
+
+    def error(self, scene: str, function: str, form: str, sample: str) -> ErrorRow | None:
+        return self._errors.get((scene, function, form, sample))
+
+    def time(self, scene: str, function: str, form: str, points: int) -> TimeRow | None:
+        return self._times.get((scene, function, form, points))
 
 
 def finite(value: float) -> float | None:
@@ -136,29 +143,53 @@ def _processor() -> str:
 
 
 def save(measurement: Measurement, path: Path) -> None:
-    """Store as JSON, one row a line."""
+    """Store as JSON, one row a line; the rows are lists under the names of their columns."""
     record = asdict(measurement)
-    lines = [f'"{key}": {json.dumps(record[key])}' for key in ("machine", "settings", "forms")]
-    for key in ("errors", "times"):
-        rows = ",\n".join("  " + json.dumps(row) for row in record[key])
-        lines.append(f'"{key}": [\n{rows}\n]')
-    write_text(path, "{\n" + ",\n".join(lines) + "\n}\n")
+    parts = [
+        f'"{key}": {json.dumps(record[key])}' for key in ("machine", "settings", "forms", "scenes")
+    ]
+    parts += [
+        table_text("errors", ErrorRow, measurement.errors),
+        table_text("times", TimeRow, measurement.times),
+    ]
+    write_text(path, "{\n" + ",\n".join(parts) + "\n}\n")
+
+
+def table_text(name: str, kind: type[Any], rows: Sequence[Any]) -> str:
+    """Records as a JSON entry: columns once, then a line a record."""
+    columns = [field.name for field in fields(kind)]
+    lines = [json.dumps([getattr(row, column) for column in columns]) for row in rows]
+    body = ",\n".join(f"  {line}" for line in lines)
+    return f'"{name}": {{"columns": {json.dumps(columns)}, "rows": [\n{body}\n]}}'
+
+
+def rows_of(kind: type[Row], entry: dict[str, Any]) -> tuple[Row, ...]:
+    """The records of a stored table."""
+    columns = entry["columns"]
+    return tuple(kind(**dict(zip(columns, row, strict=True))) for row in entry["rows"])
 
 
 def load(path: Path) -> Measurement:
     """Read what ``save`` wrote; a ValueError says which file is not a measurement."""
+    record = read(path, "measurement", "rodproof measure")
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
         return Measurement(
             machine=Machine(**record["machine"]),
             settings=Settings(**record["settings"]),
             forms=record["forms"],
-            errors=tuple(ErrorRow(**row) for row in record["errors"]),
-            times=tuple(TimeRow(**row) for row in record["times"]),
+            scenes=record["scenes"],
+            errors=rows_of(ErrorRow, record["errors"]),
+            times=rows_of(TimeRow, record["times"]),
         )
-    except OSError as error:
-        raise ValueError(
-            f"{path}: cannot be read ({error.strerror}); run `rodproof measure`"
-        ) from None
-    except (KeyError, TypeError, json.JSONDecodeError) as error:
+    except (KeyError, TypeError, ValueError) as error:
         raise ValueError(f"{path}: not a measurement of rodproof ({error!r})") from None
+
+
+def read(path: Path, what: str, command: str) -> Any:
+    """The JSON of a file; a ValueError names the command that makes one."""
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ValueError(f"{path}: cannot be read ({error.strerror}); run `{command}`") from None
+    except json.JSONDecodeError as error:
+        raise ValueError(f"{path}: not a {what} of rodproof ({error!r})") from None

@@ -9,22 +9,25 @@ from time import perf_counter_ns
 
 import numpy as np
 
-from rodproof.codegen.measure.errors import SIDES
-from rodproof.codegen.measure.inputs import batches
+from rodproof.codegen.measure.inputs import Batch, batches
 from rodproof.codegen.measure.records import TimeRow, finite
 from rodproof.codegen.measure.rivals import Form
+from rodproof.codegen.measure.subjects import Subject
 
 #: Points for a form that loops over them in Python.
-FEW = 16
+FEW = 8
+#: Different points of a block; the time of a block does not depend on how many there are.
+DRAWN = 32
 #: A call shorter than this is repeated until it is not.
 SHORTEST_NS = 200_000
 
 
 def times(
-    function: str, forms: Sequence[Form], points: int, rounds: int, seed: int
+    subject: Subject, function: str, forms: Sequence[Form], points: int, rounds: int, seed: int
 ) -> list[TimeRow]:
-    """One row per form, on a block of ordinary points."""
-    calls = [_bound(form, function, points, seed) for form in forms]
+    """One row per form, on a block of ordinary points or on a single one."""
+    (drawn,) = batches(subject, function, "ordinary", np.float64, seed, 1, DRAWN)
+    calls = [_bound(form, subject, function, points, drawn) for form in forms]
     repeats = [_repeats(call) for call, _ in calls]
     rows: list[list[float]] = [[] for _ in forms]
     gc.collect()
@@ -37,17 +40,29 @@ def times(
         gc.enable()
     middles = [median(samples) for samples in rows]
     return [
-        TimeRow(function, form.name, points, finite(ns) or 0.0, finite(ns / middles[0]) or 0.0)
+        TimeRow(
+            subject.name,
+            function,
+            form.name,
+            points,
+            finite(ns) or 0.0,
+            finite(ns / middles[0]) or 0.0,
+        )
         for form, ns in zip(forms, middles, strict=True)
     ]
 
 
-def _bound(form: Form, function: str, points: int, seed: int) -> tuple[Callable[[], object], int]:
-    size = min(points, FEW) if function in form.by_point else points
-    (batch,) = batches("ordinary", SIDES[function], np.float64, seed, 1, size)
-    first, second = batch.first.astype(form.dtype), batch.second.astype(form.dtype)
-    law = form.bind(function, batch.constants)
-    return (lambda: law(first, second)), size
+def _bound(
+    form: Form, subject: Subject, function: str, points: int, drawn: Batch
+) -> tuple[Callable[[], object], int]:
+    size = min(points, FEW) if form.loops(subject, function) else points
+    first, second = (
+        np.tile(rows, -(-size // DRAWN))[:, :size].astype(form.dtype)
+        for rows in (drawn.first, drawn.second)
+    )
+    law = form.bind(subject, function, drawn.constants)
+    given = form.prepare(subject, function, first, second, points == 1)
+    return (lambda: law(*given)), size
 
 
 def _repeats(call: Callable[[], object]) -> int:

@@ -97,6 +97,7 @@ def test_check_fails_on_another_verdict(monkeypatch: pytest.MonkeyPatch) -> None
         (("generate", "--scene", "a.toml"), ("--scene", "--out")),
         (("generate", "--scene", "no-such.toml", "--out", "x.py"), ("no-such.toml",)),
         (("report", "--data", "no-such.json"), ("no-such.json", "rodproof measure")),
+        (("measure", "--replay", "full_rod.strains"), ("full_rod.strains", "SCENE.FUNCTION")),
     ],
 )
 def test_bad_input_is_one_sentence(
@@ -168,3 +169,30 @@ def test_generate_check_shows_what_differs(tmp_path: Path, monkeypatch: pytest.M
 def test_committed_modules_are_what_the_source_gives() -> None:
     result = rodproof("generate", "--check")
     assert result.exit_code == 0, result.stdout
+
+
+def test_replay_shows_one_spot_of_the_atlas() -> None:
+    spot = "full_rod.strains.float64.limit.9.15.0"
+    shown = rodproof("measure", "--replay", spot).stdout
+    assert "limit: p 1.5, y/gamma 1e160" in shown
+    found = json.loads(rodproof("measure", "--replay", spot, "--json").stdout)
+    assert found["spot"] == spot
+    assert set(found) >= {"constants", "point", "truth", "generated", "textbook", "error"}
+    assert float(found["error"].split()[0]) < 8
+    assert found["mark of textbook"] != found["mark of stable float64"]
+
+
+def test_atlas_of_one_scene_and_its_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from rodproof.codegen.measure import atlas
+    from rodproof.codegen.measure.subjects import subject
+
+    monkeypatch.setattr(atlas, "subjects", lambda: (subject("thrust"),))
+    monkeypatch.setattr(atlas, "settings", lambda *, quick: atlas.Settings(quick, 6, 1))
+    path = tmp_path / "atlas.json"
+    made = rodproof("measure", "--atlas", "--quick", "--out", str(path), "--jobs", "1")
+    assert made.stdout == f"wrote {path}\n"
+    pages = rodproof("report", "--data", str(path), "--json")
+    names = {Path(name).name for name in json.loads(pages.stdout)}
+    assert names >= {"atlas.md", "atlas-thrust.png"}
+    worst = atlas.load(path).summaries[0].worst_spot
+    assert rodproof("measure", "--replay", worst).exit_code == 0

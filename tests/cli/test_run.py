@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 from rodproof.codegen import places
 from rodproof.codegen.cli import app
 from rodproof.codegen.measure import survey
+from rodproof.codegen.measure.subjects import subject
 
 TINY = replace(survey.settings(quick=True), batches=1, points=2, rounds=1, timed_points=8)
 
@@ -20,6 +21,7 @@ TINY = replace(survey.settings(quick=True), batches=1, points=2, rounds=1, timed
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr(places, "checkout", lambda: places.Places(tmp_path))
     monkeypatch.setattr(survey, "settings", lambda *, quick: TINY)
+    monkeypatch.setattr(survey, "subjects", lambda: tuple(map(subject, ("full_rod", "thrust"))))
     return tmp_path
 
 

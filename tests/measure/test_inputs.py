@@ -7,7 +7,15 @@ import pytest
 from flint import ctx
 
 from rodproof.codegen.measure import oracle
-from rodproof.codegen.measure.inputs import KINDS, Batch, batches
+from rodproof.codegen.measure.inputs import KINDS, Batch, coupling, kinds, strain_along
+from rodproof.codegen.measure.inputs import batches as drawn
+from rodproof.codegen.measure.subjects import subject, subjects
+
+FULL = subject("full_rod")
+
+
+def batches(kind, side: str, dtype, *counts: int) -> tuple[Batch, ...]:
+    return drawn(FULL, {"loads": "strains", "strains": "loads"}[side], kind, dtype, *counts)
 
 
 def both(kind, dtype=np.float64) -> tuple[tuple[Batch, ...], tuple[Batch, ...]]:
@@ -32,6 +40,30 @@ def test_every_sample_lies_in_the_domain(kind, dtype) -> None:
     for batch in strains:
         assert all(gap > 0 for gap in radii(batch))
         assert np.all(batch.second[2] > 0)
+
+
+def test_scenes_get_points_of_their_own() -> None:
+    for one in subjects():
+        assert ("chiral" in kinds(one)) == ("iota" in one.constants)
+        for function in one.functions:
+            (batch,) = drawn(one, function, "extreme", np.float64, 1, 1, 3)
+            rest = [0.0, 0.0, 0.0, 0.0, 0.0, float(one.side(function) == "strains")]
+            whole = np.concatenate([batch.first, batch.second])
+            dead = [i for i in range(6) if i not in one.loads]
+            assert np.array_equal(whole[dead], np.array(rest)[dead, None] + 0 * whole[dead])
+            assert one.restricted(batch.constants) == batch.constants
+            one.record(batch.constants)
+
+
+def test_directions_become_loads_and_strains() -> None:
+    """L L^T = K, and a whitened direction times L^-T has that length."""
+    k = (0.7, 1.1, 0.9, 1.6, 1.1 * 1.6 * (1 - 2**-40), 1.0, 2.0)
+    L = coupling(k)
+    whole = L @ L.T
+    np.testing.assert_allclose(np.diag(whole), [0.49, 0.49, 1.21, 0.81, 0.81, 2.56], rtol=1e-15)
+    assert abs(whole[2, 5] - k[4]) < 1e-15
+    direction = np.array([0.1, -0.2, 0.3, 0.4, 0.5, -0.6])
+    np.testing.assert_allclose(L.T @ strain_along(k, direction), direction, rtol=1e-9)
 
 
 def test_same_seed_same_inputs() -> None:

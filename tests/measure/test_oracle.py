@@ -140,3 +140,57 @@ def test_a_component_that_all_but_vanishes_stops_nothing() -> None:
     with ctx.workprec(400):
         assert abs(compliance[0]) < arb(2) ** -oracle.ACCURACY
         assert abs(compliance[7] - 1) < arb(2) ** -oracle.ACCURACY
+
+
+def test_the_stiffness_at_loads_is_that_at_their_strains() -> None:
+    with ctx.workprec(600):
+        load = balls(LOAD)
+        strain = oracle.strains(constants(), load)
+        pairs = zip(
+            oracle.stiffness_at_loads(constants(), load),
+            oracle.stiffness(constants(), strain),
+            strict=True,
+        )
+        assert all(abs(a - b) < arb(10) ** -150 for a, b in pairs)
+        x = oracle.norm(oracle.whitened_strain(constants(), strain))
+        (gap,) = oracle.limit_gap(constants(), load)
+        assert abs(gap - (1 - x ** arb(GENERIC[-1]))) < arb(10) ** -150
+
+
+CONSTRAINTS = [("unshearable",), ("inextensible",), ("unshearable", "inextensible"), ("planar",)]
+
+
+@pytest.mark.parametrize("names", CONSTRAINTS, ids=",".join)
+def test_a_constrained_rod_is_the_full_one_without_reactions(names: tuple[str, ...]) -> None:
+    """The derived limits of the law, and what the measurement takes for them."""
+    import sympy as sp
+
+    from rodproof.derivations.symbols import LOADS, STRAINS, alpha, beta, eta, gamma, iota, p, zeta
+    from rodproof.derivations.theory import constrained
+
+    def wide(value: float) -> sp.Float:
+        return sp.Float(value, 60)
+
+    values = [*GENERIC[:4], 0.0 if constrained.achiral(names) else GENERIC[4], *GENERIC[5:]]
+    numbers = dict(zip((alpha, beta, zeta, eta, iota, gamma, p), map(wide, values), strict=True))
+    at = constrained.kept(names)
+    load = [LOAD[i] if i in at else 0.0 for i in range(6)]
+    numbers |= dict(zip(LOADS, map(wide, load), strict=True))
+    law = [sp.N(e.subs(numbers), 40) for e in constrained.strains(*names)]
+    rigid = {c.rigid.name for n in names if (c := constrained.CONSTRAINTS[n]).rigid is not None}
+    given = [
+        1.0 if c.name in rigid else v
+        for c, v in zip((alpha, beta, zeta, eta), values[:4], strict=True)
+    ]
+    own = oracle.Constants(*map(arb, (*given, *values[4:])))
+    found = oracle.certain(oracle.strains, own, balls(tuple(load)))
+    with ctx.workprec(400):
+        for ball, number in zip(found, law, strict=True):
+            assert abs(ball - arb(str(number))) < arb(10) ** -35
+    strain = [STRAIN[i] / 3 if i in at else 0.0 for i in range(6)]
+    numbers |= {s: wide(e) + int(s is STRAINS[5]) for s, e in zip(STRAINS, strain, strict=True)}
+    loads = [sp.N(e.subs(numbers), 40) for e in constrained.loads(*names)]
+    held = oracle.certain(oracle.loads, own, balls(tuple(strain)))
+    with ctx.workprec(400):
+        for i, number in zip(at, loads, strict=True):
+            assert abs(held[i] - arb(str(number))) < arb(10) ** -35

@@ -12,10 +12,11 @@ from rodproof.codegen.measure.records import ErrorRow, Measurement, Settings, Ti
 
 
 def sample(*, worst: float | None = 1.5) -> Measurement:
-    asked = Settings(1, True, batches=2, points=3, rounds=7, timed_points=64, digest="d")
-    error = ErrorRow("loads", "textbook", "ordinary", 6, 0, worst, 0.5, None, 1, 7.0)
-    time = TimeRow("loads", "textbook", 64, 12.5, 2.0)
-    return Measurement(records.this_machine(), asked, {"textbook": "by hand"}, (error,), (time,))
+    asked = Settings(1, True, batches=2, points=3, rounds=7, timed_points=64)
+    error = ErrorRow("planar", "loads", "textbook", "ordinary", 6, 0, worst, 0.5, None, 1)
+    time = TimeRow("planar", "loads", "textbook", 64, 12.5, 2.0)
+    forms, scenes = {"textbook": "by hand"}, {"planar": "d"}
+    return Measurement(records.this_machine(), asked, forms, scenes, (error,), (time,))
 
 
 def test_round_trip(tmp_path: Path) -> None:
@@ -23,7 +24,8 @@ def test_round_trip(tmp_path: Path) -> None:
     records.save(sample(), path)
     assert records.load(path) == sample()
     assert records.load(path) != sample(worst=None)
-    assert sample().done() == {"loads"}
+    assert sample().functions("planar") == ("loads",)
+    assert sample().samples("planar") == ("ordinary",)
 
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"machine": {}}', '{"machine": {"cpu": 1}}'])
