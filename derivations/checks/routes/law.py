@@ -100,5 +100,5 @@ def border(
     if not ends[0] * ends[1] < 0:
         raise ValueError(f"no border in {symbol} between {low} and {high}")
     at = ctx.findroot(lambda x: measure({**values, symbol: x}), (low, high), solver="anderson",
-                      tol=ctx.mpf(10) ** -40)  # fmt: skip
+                      tol=ctx.mpf(10) ** -20)  # fmt: skip
     return tuple({**values, symbol: at * (1 + side * ctx.mpf(10) ** -12)} for side in (-1, 1))

@@ -294,7 +294,7 @@ def _azimuth(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
         values = _generic(seed, ctx)
         found = ctx.findroot(
             lambda turn, values=values: _flexure(turn, values, ctx),
-            (ctx.mpf(-2), ctx.mpf(3)), solver="anderson",
+            (ctx.mpf(-2), ctx.mpf(3)),
         )  # fmt: skip
         evaluate = Evaluator(ctx, {**values, rate: found})
         for claim in (premises.args[1], conclusion):
