@@ -312,6 +312,9 @@ def measure(
         str | None,
         typer.Option(metavar="SPOT", help="Compute one spot of the atlas again and show it."),
     ] = None,
+    peers: Annotated[
+        bool, typer.Option("--peers", help="Run time beside C, lambdify, numba, JAX and others.")
+    ] = False,
     out: Annotated[
         Path | None, typer.Option(help="File; docs/report/ measurement.json or atlas.json.")
     ] = None,
@@ -325,6 +328,9 @@ def measure(
     from rodproof.codegen.measure import atlas_table, survey
     from rodproof.derivations import workers
 
+    if peers:
+        _measure_peers(quick, out, as_json)
+        return
     if integrators:
         _measure_integrators(quick, out, as_json, jobs, scheduler)
         return
@@ -345,6 +351,22 @@ def measure(
             else:
                 asked = survey.settings(quick=quick)
                 survey.measure(path, asked, tell, jobs=jobs, scheduler=scheduler)
+    _written([path], as_json)
+
+
+def _measure_peers(quick: bool, out: Path | None, as_json: bool) -> None:
+    """Peers that are not installed are named; nothing is taken up again where it was broken off."""
+    from rodproof.codegen import places
+    from rodproof.codegen.measure import peers
+
+    with one_sentence():
+        path = out or places.checkout().report(quick=quick) / "peers.json"
+        with show.progress("peers", kept=True) as tell:
+            found = peers.compare((1, 10_000) if quick else (1, 10_000, 1_000_000), 7, tell)
+        peers.save(found, path)
+    if not as_json:
+        show.table(*peers.table(found))
+        show.table(("not measured", "why"), list(found.missing.items()))
     _written([path], as_json)
 
 

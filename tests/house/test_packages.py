@@ -54,7 +54,7 @@ def test_wheel_holds_the_modules_and_nothing_else(root: Path, tmp_path: Path) ->
         "rodproof/" + str(path.relative_to(root))
         for portion in PORTIONS
         for path in (root / portion).rglob("*")
-        if path.suffix in {".py", ".toml", ".json", ".html", ".css", ".js"}
+        if path.suffix in {".py", ".toml", ".json", ".html", ".css", ".js", ".c"}
         or path.name == "py.typed"
         or path.parent.name == "assets"
     }

@@ -1,0 +1,40 @@
+"""The law in C, compiled at run time and called by ctypes, where a compiler is there."""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+SOURCE = Path(__file__).with_name("peer_kernel.c")
+FLAGS = ("-O3", "-march=native", "-ffast-math", "-fopenmp-simd", "-fPIC", "-shared")
+#: The kernel's POWER: p = 2, powers by exp and log, powers by pow.
+SQUARE, EXP_LOG, POW = 0, 1, 2
+
+
+def compiler() -> str | None:
+    """The C compiler, if there is one."""
+    return next(filter(None, map(shutil.which, ("gcc", "cc", "clang"))), None)
+
+
+def build(power: int, folder: Path) -> ctypes.CDLL:
+    """The kernel as a library in the folder; a ValueError says what the compiler answered."""
+    target, found = folder / f"kernel_{power}.so", compiler()
+    if found is None:
+        raise ValueError("no C compiler (gcc, cc, clang)")
+    command = [found, *FLAGS, f"-DPOWER={power}", str(SOURCE), "-o", str(target), "-lm"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise ValueError(f"{found}: {(done.stderr.splitlines() or ['failed'])[0]}")
+    return ctypes.CDLL(str(target))
+
+
+def bound(library: ctypes.CDLL, function: str, arrays: Sequence[Any], points: int) -> Any:
+    """The call with its pointers fixed; the arrays must outlive it."""
+    law = getattr(library, function)
+    law.restype = None
+    pointers = [ctypes.c_void_p(array.ctypes.data) for array in arrays]
+    return lambda: law(*pointers, ctypes.c_ssize_t(points))

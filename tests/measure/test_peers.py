@@ -1,0 +1,79 @@
+"""The comparison with peers: they answer what ours does, and those that do not are named."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rodproof.codegen.measure import peer_c, peers
+
+
+def _tell(name: str, done: int, total: int) -> None:
+    """Nobody watches."""
+
+
+EVERY = peers._peers
+
+
+def _few(folder: Path) -> dict[str, tuple[str, peers.Bind]]:
+    return {
+        name: entry
+        for name, entry in EVERY(folder)
+        if name in ("rodproof numpy", "C", "C exp/log", "lambdify cse")
+    }
+
+
+def test_every_case_is_timed_and_stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(peers, "_peers", lambda folder: _few(folder).items())
+    monkeypatch.setattr(peers, "FUNCTIONS", ("strains", "loads"))
+    found = peers.compare((1, 40), 3, _tell)
+    here = ["rodproof numpy", "lambdify cse"] + ["C", "C exp/log"] * bool(peer_c.compiler())
+    assert set(found.peers) == set(here)
+    assert len(found.times) == len(here) * len(peers.FUNCTIONS) * 2 * 2
+    assert all(t.ratio == 1 for t in found.times if t.peer == peers.REFERENCE)
+    assert set(found.missing) == {"C", "C exp/log"} - set(here)
+    peers.save(found, tmp_path / "peers.json")
+    stored = json.loads((tmp_path / "peers.json").read_text())
+    assert len(stored["times"]) == len(found.times)
+    columns, rows = peers.table(found)
+    assert len(rows) == len(found.times)
+    assert all(len(row) == len(columns) for row in rows)
+
+
+def test_a_peer_that_fails_or_answers_something_else_is_named() -> None:
+    def absent(given: peers.Task) -> object:
+        raise ImportError("no module named absent")
+
+    def wrong(given: peers.Task) -> object:
+        return lambda: [row + 1 for row in given.rows]
+
+    ours = dict(peers._peers(Path()))["rodproof numpy"]
+    entries = {"ours": ours, "absent": ("", absent), "wrong": ("", wrong)}
+    missing: dict[str, str] = {}
+    given = peers.task("strains", 2.0, 5)
+    times = list(peers._case(given, entries, 3, missing))
+    assert [t.peer for t in times] == ["ours"]
+    assert missing["absent"] == "ImportError: no module named absent"
+    assert "off by" in missing["wrong, strains"]
+
+
+@pytest.mark.skipif(peer_c.compiler() is None, reason="no C compiler is installed")
+@pytest.mark.parametrize("power", [peer_c.SQUARE, peer_c.EXP_LOG, peer_c.POW])
+def test_the_c_kernel_writes_every_row(power: int, tmp_path: Path) -> None:
+    """Symmetric, and the derivative of the loads."""
+    given = peers.task("loads_and_stiffness", 2.0, 9)
+    library = peer_c.build(power, tmp_path)
+    k = np.array([0.49, 1.21, 0.81, 2.56, -0.4, 2.3, 2.0])
+    peer_c.bound(library, given.function, (given.first, given.second, k, *given.outs), 9)()
+    stiff = given.outs[2].copy()
+    assert np.array_equal(stiff, stiff.transpose(1, 0, 2))
+    step = 1e-6
+    moved = given.first.copy()
+    moved[1] += step
+    more = tuple(np.zeros_like(out) for out in given.outs)
+    peer_c.bound(library, given.function, (moved, given.second, k, *more), 9)()
+    change = np.concatenate([more[0] - given.outs[0], more[1] - given.outs[1]]) / step
+    np.testing.assert_allclose(change, stiff[:, 1], atol=1e-4)
