@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 SOURCE = Path(__file__).with_name("peer_kernel.c")
-FLAGS = ("-O3", "-march=native", "-ffast-math", "-fopenmp-simd", "-fPIC", "-shared")
+FLAGS = ("-O3", "-march=native", "-ffast-math", "-fopenmp-simd", "-fPIC")
 #: The kernel's POWER: p = 2, powers by exp and log, powers by pow.
 SQUARE, EXP_LOG, POW = 0, 1, 2
 
@@ -22,13 +22,17 @@ def compiler() -> str | None:
 
 def build(power: int, folder: Path) -> ctypes.CDLL:
     """The kernel as a library in the folder; a ValueError says what the compiler answered."""
-    target, found = folder / f"kernel_{power}.so", compiler()
+    part, target, found = folder / f"{power}.o", folder / f"kernel_{power}.so", compiler()
     if found is None:
         raise ValueError("no C compiler (gcc, cc, clang)")
-    command = [found, *FLAGS, f"-DPOWER={power}", str(SOURCE), "-o", str(target), "-lm"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise ValueError(f"{found}: {(done.stderr.splitlines() or ['failed'])[0]}")
+    # Linked without -ffast-math, with which gcc makes loading flush the process's subnormals.
+    for command in (
+        [found, *FLAGS, "-c", f"-DPOWER={power}", str(SOURCE), "-o", str(part)],
+        [found, "-shared", str(part), "-o", str(target), "-lm"],
+    ):
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode:
+            raise ValueError(f"{found}: {(done.stderr.splitlines() or ['failed'])[0]}")
     return ctypes.CDLL(str(target))
 
 

@@ -77,3 +77,9 @@ def test_the_c_kernel_writes_every_row(power: int, tmp_path: Path) -> None:
     peer_c.bound(library, given.function, (moved, given.second, k, *more), 9)()
     change = np.concatenate([more[0] - given.outs[0], more[1] - given.outs[1]]) / step
     np.testing.assert_allclose(change, stiff[:, 1], atol=1e-4)
+
+
+@pytest.mark.skipif(peer_c.compiler() is None, reason="no C compiler is installed")
+def test_loading_the_kernel_leaves_subnormals_alone(tmp_path: Path) -> None:
+    peer_c.build(peer_c.EXP_LOG, tmp_path)
+    assert (np.array([1e-310]) * 1.0)[0] == 1e-310
