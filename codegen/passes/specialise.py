@@ -108,4 +108,7 @@ def drop_dead(kernel: Kernel) -> Kernel:
     def kept(assignments: tuple[Assignment, ...]) -> tuple[Assignment, ...]:
         return tuple(a for a in assignments if a.name in needed)
 
-    return replace(kernel, body=kept(kernel.body), constants=kept(kernel.constants))
+    body, constants, dyad = kept(kernel.body), kept(kernel.constants), kernel.dyad
+    if dyad and not {dyad.weight, *dyad.vector} <= {a.name for a in body}:
+        dyad = None  # every entry has another form: with two components none is the product alone
+    return replace(kernel, body=body, constants=constants, dyad=dyad)

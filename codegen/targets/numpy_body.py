@@ -296,9 +296,14 @@ def _stay(entries: list[str], held: dict[str, int], work: list[Call]) -> bool:
 
 def _packed(kernel: Kernel, text: FunctionText) -> int:
     """The size of a matrix whose upper rows follow on, or 0."""
-    if kernel.dyad and len(text.outputs[kernel.dyad.array]) == 1:
-        return len(kernel.dyad.vector)
-    return 0
+    array, size = _matrix(kernel)
+    return size if array and len(text.outputs[array]) == 1 else 0
+
+
+def _matrix(kernel: Kernel) -> tuple[str, int]:
+    """The symmetric matrix among the outputs and its size; a dyad or not, it is mirrored."""
+    found = [o for o in kernel.outputs if len(o.index) == 2]
+    return (found[0].array, 1 + max(o.index[0] for o in found)) if found else ("", 0)
 
 
 def _calls(kernel: Kernel, printer: Printer, packed: int, known: set[str]) -> list[Call]:
@@ -322,17 +327,17 @@ def _calls(kernel: Kernel, printer: Printer, packed: int, known: set[str]) -> li
     dyad = kernel.dyad
     for o in (o for o in kernel.outputs if not dyad or o.array != dyad.array):
         settle([o.expr])
-        work.extend(calls(_place(o), o.expr, printer))
+        work.extend(calls(_place(o, packed), o.expr, printer))
     if dyad:
         settle(map(symbol, (dyad.weight, *dyad.vector)))
         work.append(_products(kernel, packed))
         for extra, entries in _beside(kernel).items():
             settle([extra])
             work.extend(_added(extra, entries, printer, packed))
-        if not packed:
-            size, place = len(dyad.vector), dyad.array
-            mirror = f"for i in range(1, {size}):\n{INDENT}{place}[i, :i] = {place}[:i, i]"
-            work.append(Call("", "", (mirror,), frozenset()))
+    place, size = _matrix(kernel)
+    if place and not packed:
+        mirror = f"for i in range(1, {size}):\n{INDENT}{place}[i, :i] = {place}[:i, i]"
+        work.append(Call("", "", (mirror,), frozenset()))
     return work
 
 

@@ -16,7 +16,8 @@ OWN = ("strains", "loads", "stiffness", "loads_and_stiffness")
 
 FUNCTIONS = ("exp", "expm1", "log", "log1p", "sqrt")
 LOW = "LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing"
-LEAST = "LEAST, LOG_MOST = 2.0**-1022, 0.99 * 1022 * math.log(2)  # for one point, in doubles"
+LEAST = "LEAST = 2.0**-1022  # the smallest normal number, for one point"
+LOG_MOST = "LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number"
 
 ONE = '''\
 def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:

@@ -98,7 +98,8 @@ def _imports(
     guards = [template.LOG_MAX] if "log_max" in used else []
     if guards or "tiny" in used or any(kernel.gauge for kernel in kernels):
         guards = [template.TINY, *guards]
-    guards += [one.LEAST] if "LEAST" in single or "LOG_MOST" in single else []
+    guards += [one.LEAST] if "LEAST" in single else []
+    guards += [one.LOG_MOST] if "LOG_MOST" in single else []
     guards += [one.LOW] if "LOW" in single else []
     several = sorted({len(text.outputs) for text in words.values()} - {1})
     kinds = {2: "Pair = tuple[Array, Array]", 3: "Triple = tuple[Array, Array, Array]"}

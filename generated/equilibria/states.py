@@ -37,7 +37,7 @@ BLOCK = 16384  # at most so many points are worked on at a time, so that rows st
 ROWS = 14  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
-LEAST, LOG_MOST = 2.0**-1022, 0.99 * 1022 * math.log(2)  # for one point, in doubles
+LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 HEADS = {"m": (3,), "n": (3,), "u": (3,), "v": (3,), "w_star": ()}
 

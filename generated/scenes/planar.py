@@ -53,7 +53,8 @@ BLOCK = 16384  # at most so many points are worked on at a time, so that rows st
 ROWS = 13  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
-LEAST, LOG_MOST = 2.0**-1022, 0.99 * 1022 * math.log(2)  # for one point, in doubles
+LEAST = 2.0**-1022  # the smallest normal number, for one point
+LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 HEADS = {
     "m2": (), "n": (2,), "u2": (), "v": (2,), "w": (), "w_star": (), "stiff": (3, 3),

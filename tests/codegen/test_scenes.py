@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import importlib
 import io
+import itertools
+import sys
 import tokenize
+from dataclasses import fields
+from pathlib import Path
 
+import numpy as np
 import pytest
 import sympy as sp
 
@@ -17,6 +23,7 @@ from rodproof.derivations.exact.field import Field
 from rodproof.derivations.symbols import LOADS, STRAINS, chiral_gap
 from rodproof.derivations.theory import constitutive as theory
 from rodproof.derivations.theory import constrained
+from rodproof.generated.scenes import full_rod
 
 SCENES = {name: scene.committed(name) for name in scene.committed_names()}
 NAIVE = {kernel.name: kernel for kernel in lower.lower(Scene("full"))}
@@ -156,3 +163,26 @@ def test_nothing_is_multiplied_by_zero_or_computed_for_nobody(own: str) -> None:
                 for n in expr.atoms(sp.Number)
                 if n != 0
             )
+
+
+@pytest.mark.parametrize("p", [None, 2.0])
+@pytest.mark.parametrize("pair", list(itertools.combinations(LOAD_NAMES, 2)), ids="-".join)
+def test_two_loads_alone_have_the_compliance_of_the_full_rod(
+    pair: tuple[str, str], p: float | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own = Scene("pair", functions=("compliance",), loads=pair, fixed={"p": p} if p else {})
+    (tmp_path / "pair.py").write_text(generate.render(own))
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "pair", raising=False)
+    law = importlib.import_module("pair")
+    values = {"alpha": 0.7, "beta": 1.1, "zeta": 0.9, "eta": 1.6, "iota": -0.4, "gamma": 2.3}
+    c = full_rod.Constants(**values, p=p or 3.3)
+    used = {f.name for f in fields(law.Constants) if f.init}
+    mine = law.Constants(**{k: v for k, v in {**values, "p": p or 3.3}.items() if k in used})
+    load = np.zeros((6, 3))
+    at = [LOAD_NAMES.index(name) for name in pair]
+    load[at] = [[0.3, 1e-3, 40.0], [-0.2, 5.0, 7.0]]
+    groups = [load[at][[i for i, k in enumerate(at) if k // 3 == part]] for part in (0, 1)]
+    given = [rows if len(rows) > 1 else rows[0] for rows in groups if len(rows)]
+    whole = full_rod.compliance(load[:3], load[3:], c)[np.ix_(at, at)]
+    assert np.allclose(law.compliance(*given, mine), whole, rtol=1e-14, atol=1e-16)

@@ -83,6 +83,8 @@ def run_python(text: str, names: dict[str, Any], page: str) -> None:
     assert runner.summarize(verbose=False).failed == 0
 
 
+# A cluster of dask.distributed may close its connections after the page is done with it.
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_what_a_page_shows_is_what_comes(
     page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
