@@ -328,6 +328,12 @@ def measure(
     from rodproof.codegen.measure import atlas_table, survey
     from rodproof.derivations import workers
 
+    spot = replay is not None
+    kinds = {"--integrators": integrators, "--atlas": atlas, "--replay": spot, "--peers": peers}
+    with one_sentence():
+        _at_most_one([name for name, given in kinds.items() if given])
+        if scheduler and (peers or spot):
+            raise ValueError("--peers and --replay are computed here: they take no --scheduler")
     if peers:
         _measure_peers(quick, out, as_json)
         return
@@ -352,6 +358,11 @@ def measure(
                 asked = survey.settings(quick=quick)
                 survey.measure(path, asked, tell, jobs=jobs, scheduler=scheduler)
     _written([path], as_json)
+
+
+def _at_most_one(options: list[str]) -> None:
+    if len(options) > 1:
+        raise ValueError(f"{' and '.join(options)} do not go together: measure one at a time")
 
 
 def _measure_peers(quick: bool, out: Path | None, as_json: bool) -> None:
@@ -403,7 +414,7 @@ def report(
     with one_sentence():
         source = data or places.checkout().report(quick=quick)
         folder = out or (source if source.is_dir() else source.parent)
-        _written([*reports.written(source, folder), *pictures.draw(folder)], as_json)
+        _written([*reports.drawn(source, folder), *pictures.draw(folder)], as_json)
 
 
 def _written(paths: list[Path], as_json: bool) -> None:

@@ -8,7 +8,6 @@ close that an ulp of the inputs decides, refusing is right too.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 from collections.abc import Callable, Sequence
@@ -27,7 +26,7 @@ from rodproof.codegen.measure.inputs import inside
 from rodproof.codegen.measure.records import Machine, finite
 from rodproof.codegen.measure.rivals import Answer, answers, form_of
 from rodproof.codegen.measure.spots import DTYPES, MAPS, Spot, axes, named, spots
-from rodproof.codegen.measure.store import Store
+from rodproof.codegen.measure.store import Store, digest
 from rodproof.codegen.measure.subjects import Subject, subject, subjects
 from rodproof.derivations import workers
 
@@ -246,8 +245,11 @@ def measure(
     """
     wanted = subjects() if chosen is None else tuple(chosen)
     store = Store(path.with_suffix(".cells"))
+    code = workers.fingerprint()
     keys = {
-        (one.name, function, precision): _key(one, function, precision, asked)
+        (one.name, function, precision): digest(
+            "atlas", one.name, function, precision, asdict(asked), code
+        )
         for one in wanted
         for function in one.functions
         for precision in DTYPES
@@ -274,11 +276,6 @@ def measure(
     save(atlas, path)
     store.forget()
     return atlas
-
-
-def _key(one: Subject, function: str, precision: str, asked: Settings) -> str:
-    parts = ["atlas", one.name, function, precision, asdict(asked), one.digest]
-    return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
 
 
 def _summary_of(record: dict[str, object]) -> Summary:

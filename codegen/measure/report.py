@@ -35,7 +35,7 @@ KNOWN = {
 }
 
 
-def written(data: Path, folder: Path) -> list[Path]:
+def drawn(data: Path, folder: Path) -> list[Path]:
     """Pages and pictures of one stored file, or of all that a folder holds."""
     if data.is_dir():
         found = [(data / name, draw) for name, (draw, _) in KNOWN.items()]

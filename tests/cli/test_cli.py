@@ -44,6 +44,18 @@ def test_help_imports_nothing_heavy() -> None:
     assert done.stdout.strip() == "[]"
 
 
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--atlas", "--peers"), "--atlas and --peers do not go together"),
+        (("--integrators", "--replay", "x"), "--integrators and --replay do not go together"),
+        (("--peers", "--scheduler", "tcp://127.0.0.1:1"), "they take no --scheduler"),
+    ],
+)
+def test_measure_does_one_thing_at_a_time(options: tuple[str, ...], said: str) -> None:
+    assert said in one_sentence(rodproof("measure", *options))
+
+
 def test_the_console_script_is_installed() -> None:
     script = Path(sys.executable).with_name("rodproof")
     done = subprocess.run([script, "--help"], capture_output=True, text=True)

@@ -35,6 +35,7 @@ from rodproof.codegen.measure.integrators.runs import (
     REFUSED,
     SKIPPED,
     STALLED,
+    Run,
     equations,
     errors,
     integrate,
@@ -262,7 +263,7 @@ def test_every_cell_is_there(studied: tuple[Path, records.Study]) -> None:
 def test_a_study_that_broke_off_goes_on(
     studied: tuple[Path, records.Study], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Interrupted in a cell, and the journal cut in the middle of a line: only that is lost."""
+    """Interrupted in a cell, and what was kept cut in the middle of a line: only that is lost."""
     path = tmp_path / "integrators.json"
     integrated: list[tuple[str, ...]] = []
 
@@ -276,28 +277,36 @@ def test_a_study_that_broke_off_goes_on(
     monkeypatch.setattr(survey, "runs", counted)
     with pytest.raises(KeyboardInterrupt):
         survey.measure(path, ASKED, silent, chosen=RODS)
-    journal = path.with_suffix(".partial.jsonl")
-    journal.write_text(journal.read_text()[:-30])
+    kept = path.with_suffix(".cells")
+    kept.write_text(kept.read_text()[:-30])
     again: list[str] = []
     study = survey.measure(path, ASKED, lambda name, *_: again.append(name), chosen=RODS)
     cells = [cell for cell in integrated if len(cell) == 3]
     assert len(cells) == 2 * len(EQUATIONS) * len(METHODS) + 1
     assert len(set(cells)) == len(cells) - 1
     assert untimed(study) == untimed(studied[1])
-    assert not journal.exists()
+    assert not kept.exists()
     assert again[-1] == "done"
 
 
-def test_a_journal_of_other_code_is_begun_anew(tmp_path: Path, known: Reference) -> None:
-    path = tmp_path / "x.partial.jsonl"
-    journal = records.Journal(path, ASKED)
-    journal.add_reference(known)
-    journal.add_cell(runs(ROD, "directors", "RK45", known, (1e-3,)))
-    same = records.Journal(path, ASKED)
-    assert same.references == journal.references
-    assert same.cells == journal.cells
-    other = records.Journal(path, replace(ASKED, digest="another"))
-    assert (other.references, other.cells) == ({}, {})
+def test_what_other_code_or_settings_found_is_not_taken_over() -> None:
+    others = (
+        records.key(ASKED, POLE.name, "directors", "RK45"),
+        records.key(replace(ASKED, digest="another"), ROD.name, "directors", "RK45"),
+        records.key(replace(ASKED, scipy="another"), ROD.name, "directors", "RK45"),
+        records.key(replace(ASKED, budget=7), ROD.name, "directors", "RK45"),
+    )
+    assert records.key(ASKED, ROD.name, "directors", "RK45") not in others
+    assert len(set(others)) == len(others)
+
+
+def test_what_is_kept_of_a_rod_is_what_was_found(known: Reference) -> None:
+    """To the bit and of the same kind, by way of JSON."""
+    stored = json.loads(json.dumps(dataclasses.asdict(known)))
+    assert records.reference_of(stored) == known
+    found = runs(ROD, "directors", "RK45", known, (1e-3,))
+    rows = json.loads(json.dumps([dataclasses.astuple(run) for run in found]))
+    assert [Run(*row) for row in rows] == found
 
 
 def test_the_command_and_the_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,7 +13,7 @@ from rodproof.codegen.measure.extremes import Outcome
 from rodproof.codegen.measure.fronts import Mark, front, winner
 from rodproof.codegen.measure.inputs import KINDS
 from rodproof.codegen.measure.records import ErrorRow, Measurement, Settings, TimeRow
-from rodproof.codegen.measure.report import written
+from rodproof.codegen.measure.report import drawn
 from rodproof.codegen.measure.rivals import all_forms
 
 FORMS = tuple(plot.STYLES)
@@ -82,11 +82,11 @@ def test_report_writes_all_files_twice_alike(
 ) -> None:
     records.save(measurement, tmp_path / "measurement.json")
     atlas.save(mapped, tmp_path / "atlas.json")
-    first = {path.name: path.read_bytes() for path in written(tmp_path, tmp_path / "a")}
+    first = {path.name: path.read_bytes() for path in drawn(tmp_path, tmp_path / "a")}
     apart = [
         p
         for name in ("measurement", "atlas")
-        for p in written(tmp_path / f"{name}.json", tmp_path / "b")
+        for p in drawn(tmp_path / f"{name}.json", tmp_path / "b")
     ]
     second = {path.name: path.read_bytes() for path in apart}
     assert first == second
@@ -97,7 +97,7 @@ def test_report_writes_all_files_twice_alike(
 
 def test_a_folder_without_data_names_the_command(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="holds nothing measured; run `rodproof mea"):
-        written(tmp_path, tmp_path)
+        drawn(tmp_path, tmp_path)
 
 
 def test_every_form_and_function_is_on_the_page(measurement: Measurement) -> None:
@@ -143,7 +143,7 @@ def test_the_atlas_page_tells_what_is_wrong(tmp_path: Path, mapped: Atlas) -> No
     path = tmp_path / "atlas.json"
     atlas.save(mapped, path)
     assert atlas.load(path) == mapped
-    written(path, tmp_path)
+    drawn(path, tmp_path)
     page = (tmp_path / "atlas.md").read_text()
     assert "Ours is wrong at 4 of them" in page
     assert "| strains | 18 | 0 | 2.5 | 0.5 | 2.5 | 2 | 2 | 3 of 9 | `the.spot` |" in page

@@ -1,4 +1,4 @@
-"""What a study of integrators stores: JSON to draw from, and a journal to go on from."""
+"""What a study of integrators stores: JSON to draw from; and what its parts are kept under."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from rodproof.codegen.measure.integrators.problems import Problem, grid
 from rodproof.codegen.measure.integrators.reference import Reference
 from rodproof.codegen.measure.integrators.runs import BUDGET, TOLERANCES, Run
 from rodproof.codegen.measure.records import this_machine
+from rodproof.codegen.measure.store import digest
 from rodproof.generated.equilibria import directors, euler_angles
 
 #: What decides a result: another digest, another study.
@@ -51,55 +52,27 @@ class Study:
 
 def settings(*, quick: bool) -> Settings:
     """A quick look (under half a minute), or the full study."""
-    digest = hashlib.sha256()
+    code = hashlib.sha256()
     for module in SOURCES:
-        digest.update(Path(str(module.__file__)).read_bytes())
+        code.update(Path(str(module.__file__)).read_bytes())
     return Settings(
         quick=quick,
         tolerances=(1e-3, 1e-6, 1e-9) if quick else TOLERANCES,
         budget=2000 if quick else BUDGET,
-        digest=digest.hexdigest()[:16],
+        digest=code.hexdigest()[:16],
         scipy=version("scipy"),
         machine=asdict(this_machine()),
     )
 
 
-class Journal:
-    """One line for each thing that is known; a line cut off by an interruption counts for nothing.
+def key(asked: Settings, *what: str) -> str:
+    """What decides a result that is kept: the settings, with the code, and what it is of."""
+    return digest("integrators", asdict(asked), *what)
 
-    A journal of other settings is begun anew.
-    """
 
-    def __init__(self, path: Path, asked: Settings) -> None:
-        self.path, head = path, _line(asdict(asked))
-        lines = path.read_text("utf-8").splitlines(keepends=True) if path.exists() else []
-        if not lines or lines[0] != head:
-            lines = [head]
-        kept = [line for line in lines if line.endswith("\n")]
-        write_text(path, "".join(kept))
-        rows = [json.loads(line) for line in kept[1:]]
-        known = (Reference(**_tuples(row["reference"])) for row in rows if "reference" in row)
-        self.references = {found.problem: found for found in known}
-        self.cells: dict[tuple[str, str, str], list[Run]] = {}
-        for row in rows:
-            if "runs" in row:
-                self._keep([Run(*values) for values in row["runs"]])
-
-    def add_reference(self, found: Reference) -> None:
-        self.references[found.problem] = found
-        self._append({"reference": asdict(found)})
-
-    def add_cell(self, found: list[Run]) -> None:
-        self._keep(found)
-        self._append({"runs": [astuple(run) for run in found]})
-
-    def _keep(self, found: list[Run]) -> None:
-        first = found[0]
-        self.cells[first.problem, first.equations, first.method] = found
-
-    def _append(self, row: dict[str, Any]) -> None:
-        with self.path.open("a", encoding="utf-8") as file:
-            file.write(_line(row))
+def reference_of(row: dict[str, Any]) -> Reference:
+    """A reference from its stored row."""
+    return Reference(**_tuples(row))
 
 
 def save(study: Study, path: Path) -> None:
@@ -126,7 +99,7 @@ def load(path: Path) -> Study:
         return Study(
             Settings(**_tuples(record["settings"])),
             found,
-            tuple(Reference(**_tuples(row)) for row in record["references"]),
+            tuple(map(reference_of, record["references"])),
             tuple(Run(found[place].name, *values) for place, *values in record["runs"]),
         )
     except OSError as error:
@@ -140,10 +113,6 @@ def load(path: Path) -> Study:
 def rods(asked: Settings) -> tuple[Problem, ...]:
     """The rods of a quick look or of the full study."""
     return grid(quick=asked.quick)
-
-
-def _line(row: dict[str, Any]) -> str:
-    return json.dumps(row) + "\n"
 
 
 def _rows(found: list[Any]) -> str:

@@ -1,20 +1,22 @@
 """A whole study: the references first, on any workers; then the runs, alone, as they are timed.
 
-What is known is kept in a journal beside the target, reference by reference and cell by cell (one
-rod, one form of the equations, one method): a study that was broken off loses one cell at most.
+What is known is kept beside the target, reference by reference and cell by cell (one rod, one form
+of the equations, one method): a study that was broken off loses one cell at most.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import asdict, astuple
 from pathlib import Path
 
 from rodproof.codegen.measure.integrators import records
 from rodproof.codegen.measure.integrators.problems import Problem
-from rodproof.codegen.measure.integrators.records import Journal, Settings, Study
+from rodproof.codegen.measure.integrators.records import Settings, Study
 from rodproof.codegen.measure.integrators.reference import reference
-from rodproof.codegen.measure.integrators.runs import EQUATIONS, METHODS, runs
+from rodproof.codegen.measure.integrators.runs import EQUATIONS, METHODS, Run, runs
+from rodproof.codegen.measure.store import Store
 from rodproof.derivations import workers
 
 Tell = Callable[[str, int, int], None]
@@ -34,32 +36,39 @@ def measure(
     jobs, scheduler: who computes the references, as in `workers.run`.
     """
     rods = records.rods(asked) if chosen is None else chosen
-    journal = Journal(path.with_suffix(".partial.jsonl"), asked)
-    cells = [(rod, name, method) for rod in rods for name in EQUATIONS for method in METHODS]
-    clock = _Clock(tell, len(rods) + len(cells))
-    clock.skip(sum(rod.name in journal.references for rod in rods))
-    missing = [rod for rod in rods if rod.name not in journal.references]
+    store = Store(path.with_suffix(".cells"))
+    ends = {rod: records.key(asked, "reference", rod.name) for rod in rods}
+    cells = {
+        (rod, name, method): records.key(asked, rod.name, name, method)
+        for rod in rods
+        for name in EQUATIONS
+        for method in METHODS
+    }
+    clock = _Clock(tell, len(ends) + len(cells))
+    missing = [rod for rod, key in ends.items() if key not in store]
+    clock.skip(len(ends) - len(missing))
     tasks = [workers.Task(rod.name, reference, (rod,)) for rod in missing]
     clock.tell("references")
     for index, known in workers.run(tasks, jobs=jobs, scheduler=scheduler):
-        journal.add_reference(known)
+        store.add(ends[missing[index]], asdict(known))
         clock.done(missing[index].name)
-    for rod, name, method in cells:
-        if (rod.name, name, method) in journal.cells:
+    references = {rod: records.reference_of(store[key]) for rod, key in ends.items()}
+    for (rod, name, method), key in cells.items():
+        if key in store:
             clock.skip(1)
             continue
         clock.tell(f"{rod.name}, {name}, {method}")
-        known = journal.references[rod.name]
-        journal.add_cell(runs(rod, name, method, known, asked.tolerances, asked.budget))
+        found = runs(rod, name, method, references[rod], asked.tolerances, asked.budget)
+        store.add(key, [astuple(run) for run in found])
         clock.done(rod.name)
     study = Study(
         asked,
         rods,
-        tuple(journal.references[rod.name] for rod in rods),
-        tuple(run for rod, *rest in cells for run in journal.cells[rod.name, rest[0], rest[1]]),
+        tuple(references.values()),
+        tuple(Run(*row) for key in cells.values() for row in store[key]),
     )
     records.save(study, path)
-    journal.path.unlink()
+    store.forget()
     clock.tell("done")
     return study
 
