@@ -23,7 +23,7 @@ from rodproof.derivations.theory import thrust as theory
 from rodproof.derivations.theory.frames import phi, psi, theta
 from rodproof.derivations.theory.thrust import N, s, x
 
-R = sp.Symbol("R", positive=True)  # |N|
+R = sp.Symbol("|N|", positive=True)
 angle = sp.Symbol("vartheta", positive=True)  # the free angle of the branch
 delta = sp.Symbol("delta", positive=True)  # distance of N^{-p} from N_thresh^{-p}
 tension = sp.Symbol("n3", real=True)
@@ -114,7 +114,7 @@ def _above(seed: int) -> dict[sp.Symbol, sp.Rational]:
 def _small(**others: object) -> tuple[Point, ...]:
     """Small points: beta, eta, zeta, iota, p with rational b, and others given by name."""
     rows = ((1, 2, 1, 0, 2), (2, 2, 1, 0, 2), (1, 1, 1, 0, 2), (1, 2, 1, 1, 2), (2, 1, 1, -1, 1))
-    names = {k.name: k for k in (R, N, theta, phi, psi, psi0, s, x, angle)}
+    names = {"R": R} | {k.name: k for k in (N, theta, phi, psi, psi0, s, x, angle)}
     given = {names[k]: sp.sympify(v) for k, v in others.items()}
     keys = (beta, eta, zeta, iota, p)
     return tuple({**dict(zip(keys, map(sp.Integer, row), strict=True)), **given} for row in rows)
