@@ -14,6 +14,7 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.exact.evaluate import numbers
 from rodproof.derivations.notation import Prime
 from rodproof.derivations.proof import curves
 from rodproof.derivations.proof.curves import Vector, cross, minus, plus, rate, times
@@ -99,7 +100,7 @@ def _bent(start: Vector, end: Vector) -> Callable[[Any], Vector]:
 
 def _route_of_segment(point: Point, ctx: Any) -> Values:
     """Resultants as integrals of the rates along a segment with these end values."""
-    c = curves.numbers(ctx, point)
+    c = numbers(ctx, point)
     r, n, m = (_bent(*([c[s] for s in symbols_of(f"{x}_{end}")] for end in "ab")) for x in "rnm")
     o = [c[s] for s in symbols_of("o")]
 
@@ -118,7 +119,7 @@ def _route_of_segment(point: Point, ctx: Any) -> Values:
 
 def _route_of_body_loads(point: Point, ctx: Any) -> Values:
     """Minus the rates of what a growing segment [0, b] feels, at b = 0."""
-    c = curves.numbers(ctx, point)
+    c = numbers(ctx, point)
 
     def along(name: str) -> Callable[[Any], Vector]:
         value, slope = ([c[s] for s in symbols_of(x)] for x in (name, f"{name}_rate"))
@@ -190,7 +191,7 @@ def _sample_in_directors(seed: int) -> Point:
 
 
 def _route_in_directors(point: Point, ctx: Any) -> Values:
-    c = curves.numbers(ctx, point)
+    c = numbers(ctx, point)
     rod = curves.uniform_rod(ctx, [c[s] for s in STRAINS[:3]], [c[s] for s in STRAINS[3:]])
     zero = ctx.mpf(0)
 

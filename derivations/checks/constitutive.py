@@ -9,6 +9,7 @@ import sympy as sp
 
 from rodproof.derivations.checks.domains import FUNCTIONS, NO_LOAD, ON_LOADS, ON_STRAINS, REST
 from rodproof.derivations.checks.routes import values as routes
+from rodproof.derivations.exact.evaluate import numbers
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Every, W, Wstar, m, n, u, v
 from rodproof.derivations.proof import sampling
@@ -137,7 +138,7 @@ TB_RANGES = Ranges((a, b, p))
 CONSTANT_RANGES = Ranges(tuple(c for c in CONSTANTS if c.is_positive))
 
 
-def _constants_of_all_signs() -> list[dict[sp.Symbol, sp.Expr]]:
+def constants_of_all_signs() -> list[dict[sp.Symbol, sp.Expr]]:
     """Small constants in their ranges, whether or not the coupling hypothesis holds."""
     half = sp.Rational(1, 2)
     values = ((2, 1, 1, 1, 1, 3 * half), (1, 1, 1, 1, 2, 3 * half), (1, 1, 1, 1, 1, half),
@@ -156,13 +157,13 @@ def _definiteness(point: dict[sp.Symbol, sp.Expr]) -> str:
     return f"[beta^2, iota; iota, eta^2] has determinant {block.det()}: Q is {kind}"
 
 
-COUPLING = EquivalentSign(chiral_gap, _constants_of_all_signs, _definiteness)
+COUPLING = EquivalentSign(chiral_gap, constants_of_all_signs, _definiteness)
 FORMS = DefiniteForms(
     forms=(
         (theory.quadratic_form(), STRAINS, (0, 0, 0, 0, 0, 1)),
         (theory.dual_form(), LOADS, (0, 0, 0, 0, 0, 0)),
     ),
-    candidates=_constants_of_all_signs,
+    candidates=constants_of_all_signs,
 )
 
 
@@ -229,7 +230,8 @@ def _bound(*extremals: tuple[sp.Expr, ...]) -> EllipsoidBound:
 _ANGLE = sp.Symbol("chi", real=True)
 
 
-def _all_around(first: int) -> tuple[sp.Expr, ...]:
+def all_around(first: int) -> tuple[sp.Expr, ...]:
+    """The strains from rest at which two components are furthest out, in every direction."""
     functional = [sp.Integer(0)] * 6
     functional[first], functional[first + 1] = sp.cos(_ANGLE), sp.sin(_ANGLE)
     return theory.sharp_bound(*functional).extremal
@@ -243,12 +245,12 @@ def _both_ways(index: int) -> tuple[tuple[sp.Expr, ...], ...]:
 
 def flexure_bound() -> EllipsoidBound:
     """(u1^2 + u2^2)^{1/2}, extremal in every direction of bending."""
-    return _bound(_all_around(0))
+    return _bound(all_around(0))
 
 
 def shear_bound() -> EllipsoidBound:
     """(v1^2 + v2^2)^{1/2}, extremal in every direction of shear."""
-    return _bound(_all_around(3))
+    return _bound(all_around(3))
 
 
 def twist_bound() -> EllipsoidBound:
@@ -292,7 +294,7 @@ STORED_POTENTIAL = Potential(
 
 def _radius_route(point: Point, ctx: Any) -> Values:
     """x from y by integrating dx/dy = gamma^p (gamma^p + y^p)^{-1/p - 1} from rest."""
-    c = {k: ctx.mpf(int(value.p)) / int(value.q) for k, value in point.items()}
+    c = numbers(ctx, point)
     G, power = c[gamma] ** c[p], c[p]
     slope = lambda r: G * (G + r**power) ** (-1 / power - 1)  # noqa: E731
     return {x: ctx.quad(slope, [0, c[y]])}

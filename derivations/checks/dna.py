@@ -7,7 +7,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import ON_LOADS, _Numbers
+from rodproof.derivations.checks.domains import ON_LOADS, NumericLaw
 from rodproof.derivations.checks.routes import values as measured
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Iff, LimitOf, instances
@@ -57,7 +57,7 @@ def _tension_route(point: Point, ctx: Any) -> Values:
     """Strains by the numerical gradient of W*; their slopes at N = 0 by solving K numerically."""
     exact = {x: sp.sympify(e).xreplace(dict(point)) for x, e in theory.constants().items()}
     numbers = {x: sp.Rational(str(sp.N(e, ctx.dps + 10))) for x, e in exact.items()}
-    law = _Numbers({**point, **numbers}, ctx)
+    law = NumericLaw({**point, **numbers}, ctx)
     found: dict[sp.Basic, Any] = {}
     size = law.c[tension]
     full = law.strains([ctx.mpf(0)] * 5 + [size])

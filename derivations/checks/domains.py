@@ -13,7 +13,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.exact.evaluate import number
+from rodproof.derivations.exact.evaluate import numbers
 from rodproof.derivations.notation import Partial, Q, Qstar, W, Wstar, m, n, u, v
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
@@ -63,12 +63,12 @@ FUNCTIONS = {
 }
 
 
-class _Numbers:
+class NumericLaw:
     """The law from its definition, numerically: K, one quadrature, one root."""
 
     def __init__(self, point: Mapping[sp.Symbol, Any], ctx: Any) -> None:
         self.ctx = ctx
-        self.c = {name: number(ctx, x) for name, x in point.items()}
+        self.c = numbers(ctx, point)
         c = self.c
         self.K = ctx.diag(
             [c[alpha] ** 2, c[alpha] ** 2, c[beta] ** 2, c[zeta] ** 2, c[zeta] ** 2, c[eta] ** 2]
@@ -159,7 +159,7 @@ class _Numbers:
 
 
 def _route_on_loads(point: Point, ctx: Any) -> Values:
-    law = _Numbers(point, ctx)
+    law = NumericLaw(point, ctx)
     load = [law.c[s] for s in LOADS]
     strain = law.strains(load)
     found: dict[sp.Basic, Any] = dict(zip(STRAINS, strain, strict=True))
@@ -172,7 +172,7 @@ def _route_on_loads(point: Point, ctx: Any) -> Values:
 
 
 def _route_on_strains(point: Point, ctx: Any) -> Values:
-    law = _Numbers(point, ctx)
+    law = NumericLaw(point, ctx)
     strain = [law.c[s] for s in STRAINS[:5]] + [law.c[v3] - 1]
     found: dict[sp.Basic, Any] = dict(zip(LOADS, law.loads(strain), strict=True))
     found[Q(u, v)] = law.form(strain)
@@ -218,7 +218,7 @@ ON_STRAINS = Meaning(
 
 
 def _route_near_rest(point: Point, ctx: Any) -> Values:
-    law = _Numbers(point, ctx)
+    law = NumericLaw(point, ctx)
     h = ctx.mpf(10) ** -200  # the remainder is of relative order h^p
     strain = [law.c[s] for s in STRAINS[:5]] + [law.c[v3] - 1]
     tiny = law.loads([h * e for e in strain])

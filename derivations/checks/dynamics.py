@@ -18,9 +18,10 @@ from rodproof.derivations.checks.domains import (
     NO_LOAD,
     ON_LOADS,
     ON_STRAINS,
-    _Numbers,
+    NumericLaw,
 )
 from rodproof.derivations.checks.routes import values as measured
+from rodproof.derivations.exact.evaluate import number, numbers
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Every, Partial, W, Wstar, m, n, u, v
 from rodproof.derivations.proof import sampling
@@ -78,7 +79,7 @@ def _sample_motion(seed: int) -> Point:
 
 def _masses(point: Point, ctx: Any) -> Values:
     """The same vectors from the positions of four masses; n and v as in the sample."""
-    law = {x: ctx.mpf(int(e.p)) / int(e.q) for x, e in point.items()}
+    law = numbers(ctx, point)
     curves = zip(STRAINS, LOADS, (*theory.spin, *theory.acceleration), strict=True)
     coefficients = [[law[x] for x in row] for row in curves]  # of the angles, then of r
 
@@ -101,7 +102,7 @@ def _masses(point: Point, ctx: Any) -> Values:
 
     def arms(at: Any) -> list[list[Any]]:
         d1, d2, _ = frame(at)
-        a, b = (ctx.mpf(int(e.p)) / int(e.q) for e in _HALF)
+        a, b = (number(ctx, e) for e in _HALF)
         return [[k * x for x in d] for d, k in ((d1, a), (d1, -a), (d2, b), (d2, -b))]
 
     def place(at: Any) -> list[Any]:
@@ -113,7 +114,7 @@ def _masses(point: Point, ctx: Any) -> Values:
     def position(k: int, at: Any) -> list[Any]:
         return [p + q for p, q in zip(place(at), arm(k, at), strict=True)]
 
-    mass, zero = ctx.mpf(int(_MASS.p)) / int(_MASS.q), ctx.mpf(0)
+    mass, zero = number(ctx, _MASS), ctx.mpf(0)
 
     def arm_momentum(at: Any) -> list[Any]:
         total = [zero] * 3
@@ -173,7 +174,7 @@ def _rates(seed: int) -> Point:
 def _strain_rate_route(point: Point, ctx: Any) -> Values:
     """Loads by root-finding at eps + time eps_t; the gradient of W* there, by quadrature."""
     seed = next(k for k in range(9) if sampling.with_loads(k).items() <= point.items())
-    law = _Numbers({**sampling.with_strains(seed), **_rates(seed)}, ctx)
+    law = NumericLaw({**sampling.with_strains(seed), **_rates(seed)}, ctx)
     eps = [law.c[x] for x in STRAINS[:5]] + [law.c[v3] - 1]
     ahead = [e + law.c[time] * law.c[x] / 8 for e, x in zip(eps, RATES, strict=True)]
     load = law.loads(ahead)
@@ -186,7 +187,7 @@ def _strain_rate_route(point: Point, ctx: Any) -> Values:
 
 def _kelvin_voigt_route(point: Point, ctx: Any) -> Values:
     """The elastic loads as the numerical gradient of W, the viscous ones from half the loss."""
-    law = _Numbers(point, ctx)
+    law = NumericLaw(point, ctx)
     eps = [law.c[x] for x in STRAINS[:5]] + [law.c[v3] - 1]
     rates = [law.c[x] for x in RATES]
 

@@ -7,6 +7,7 @@ from typing import Any
 import sympy as sp
 
 from rodproof.derivations.checks.equilibrium import cross, dot
+from rodproof.derivations.exact.evaluate import number
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.symbols import LOADS
@@ -31,8 +32,8 @@ def _route(point: Point, ctx: Any) -> Values:
 
     Components and directors are turned by matrix exponentials, and put together again.
     """
-    rate = [ctx.mpf(int(point[s].p)) / int(point[s].q) for s in LOADS[:3]]
-    size = ctx.mpf(int(point[theory.N].p)) / int(point[theory.N].q)
+    rate = [number(ctx, point[s]) for s in LOADS[:3]]
+    size = number(ctx, point[theory.N])
     spin = ctx.matrix(3, 3)
     for k in range(3):
         axis = [ctx.mpf(int(i == k)) for i in range(3)]
@@ -41,7 +42,7 @@ def _route(point: Point, ctx: Any) -> Values:
     components = ctx.expm(spin) * ctx.matrix([0, 0, size])  # back along -s: exp(+u x)
     directors = ctx.expm(-spin)  # the basis at s = 1, turned back to s = 0
     total = [dot([directors[i, k] for k in range(3)], list(components), ctx) for i in range(3)]
-    basis = [ctx.mpf(int(point[x].p)) / int(point[x].q) for x in _G]
+    basis = [number(ctx, point[x]) for x in _G]
     return {force_at: dot(total, basis, ctx)}
 
 

@@ -16,7 +16,7 @@ import sympy as sp
 from rodproof.derivations.checks import equilibrium as numeric
 from rodproof.derivations.checks.couple.domains import HALF_ANGLE, on_all
 from rodproof.derivations.checks.couple.route import t
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import context, numbers
 from rodproof.derivations.notation import Every
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.proof.prover import Identity
@@ -57,7 +57,7 @@ def _sample(seed: int) -> Point:
 def _measured(seed: int) -> dict[sp.Basic, Any]:
     ctx = context(65)
     point = _sample(seed)
-    c = {x: ctx.mpf(int(e.p)) / int(e.q) for x, e in point.items()}
+    c = numbers(ctx, point)
     angle = 2 * ctx.atan(c[t])
     stiffness = c[eta] ** 2 - c[iota] ** 2 / c[beta] ** 2
     stretch = stiffness / (ctx.cos(angle) * (stiffness - c[zeta] ** 2))

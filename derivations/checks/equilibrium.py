@@ -17,7 +17,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.domains import NumericLaw
 from rodproof.derivations.exact.evaluate import Evaluator
 from rodproof.derivations.proof.meaning import Point
 
@@ -66,7 +66,7 @@ def loads_of(u: Vector, v: Vector, constants: Point, ctx: Any) -> tuple[Vector, 
     strain = [*u, v[0], v[1], v[2] - 1]
     if not any(strain):
         return [ctx.mpf(0)] * 3, [ctx.mpf(0)] * 3
-    law = _Numbers(constants, ctx)
+    law = NumericLaw(constants, ctx)
     if law.form(strain) >= 1:
         raise ValueError("strains at or past the strain limit")
     load = law.loads(strain)

@@ -25,6 +25,7 @@ from rodproof.derivations.checks.orbits import (
     residuals_of,
     turned,
 )
+from rodproof.derivations.exact.evaluate import number
 from rodproof.derivations.notation import Cross, Dot, Prime, Wstar, m, n
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
@@ -128,9 +129,9 @@ def _route(point: Point, ctx: Any) -> Values:
     orbit = Orbit({k: x for k, x in point.items() if k in CONSTANTS}, ctx)
     start = [point[a] for a in (*theory.ANGLES, *theory.COUPLE, N)]
     seen = orbit.observe(turned(start[:3], ctx), start[3:6], start[6])
-    number = {x: ctx.mpf(int(point[x].p)) / int(point[x].q) for x in (*_G, N)}
-    basis = [number[x] for x in _G]
-    found: dict[sp.Basic, Any] = {N: number[N]}
+    given = {x: number(ctx, point[x]) for x in (*_G, N)}
+    basis = [given[x] for x in _G]
+    found: dict[sp.Basic, Any] = {N: given[N]}
     found |= dict(zip((*theory.ANGLES, *theory.COUPLE), seen.unknowns, strict=True))
     found |= dict(zip(theory.RATES.values(), seen.rates, strict=True))
     found |= {Prime(x): r for x, r in zip(theory.RATES, seen.rates, strict=True)}
@@ -142,7 +143,7 @@ def _route(point: Point, ctx: Any) -> Values:
     for names, vectors in ((_D, seen.directors), (_E, seen.frame)):
         for s, a in zip(names, vectors, strict=True):
             found[s] = ctx.fdot(zip(a, basis, strict=True))
-    found[n_vector] = number[N] * basis[2]
+    found[n_vector] = given[N] * basis[2]
     found[Cross(_E[1], _E[2])] = ctx.fdot(zip(seen.first_axis, basis, strict=True))
     found[Dot(_D[2], _G[2])] = seen.directors[2][2]
     found[Prime(Dot(_D[2], _G[2]))] = seen.polar_rate
@@ -236,7 +237,7 @@ def _simple_loads() -> tuple[Point, ...]:
 def _with_scalars(route: Callable[[Point, Any], Values]) -> Callable[[Point, Any], Values]:
     def at(point: Point, ctx: Any) -> Values:
         found = dict(route(point, ctx))
-        load = {s: ctx.mpf(int(point[s].p)) / int(point[s].q) for s in LOADS}
+        load = {s: number(ctx, point[s]) for s in LOADS}
         found[u_scalar] = found[STRAINS[0]] / load[LOADS[0]]
         found[v_scalar] = found[STRAINS[3]] / load[LOADS[3]]
         return found
@@ -277,7 +278,7 @@ def _integral_route(point: Point, ctx: Any) -> Values:
     def radius(load: list[Any]) -> Any:
         return ctx.sqrt(orbit.law.dual(load))
 
-    start = [orbit.law.ctx.mpf(int(point[s].p)) / int(point[s].q) for s in LOADS]
+    start = [number(orbit.law.ctx, point[s]) for s in LOADS]
 
     def energy(load: list[Any]) -> Any:
         change = ctx.quad(

@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.domains import NumericLaw
 from rodproof.derivations.checks.monotonicity import stiffness_is_definite
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.exact.field import Field, OutOfReach
@@ -51,7 +51,7 @@ def _sample(seed: int) -> Point:
 
 
 def _route(point: Point, ctx: Any) -> Values:
-    law = _Numbers(point, ctx)
+    law = NumericLaw(point, ctx)
     found: dict[sp.Basic, Any] = {}
     for state, names, x, y in _STATES:
         strain = [law.c[s] for s in state[:5]] + [law.c[state[5]] - 1]

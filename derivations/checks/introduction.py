@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import FUNCTIONS, ON_LOADS, ON_STRAINS, _Numbers
+from rodproof.derivations.checks.domains import FUNCTIONS, ON_LOADS, ON_STRAINS, NumericLaw
 from rodproof.derivations.checks.symmetry import HasSymmetries
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Every, Implies, Partial, PositiveDefinite
@@ -62,7 +62,7 @@ def _two_couples() -> tuple[Point, ...]:
 
 def _route_ray(point: Point, ctx: Any) -> Values:
     """The radius by integrating its slope in the load radius, the direction by a linear solve."""
-    law = _Numbers(point, ctx)
+    law = NumericLaw(point, ctx)
     load = [law.c[s] for s in LOADS]
     G, power, size = law.c[gamma] ** law.c[p], law.c[p], ctx.sqrt(law.dual(load))
     reached = ctx.quad(lambda r: G * (G + r**power) ** (-1 / power - 1), [0, size / 4, size])

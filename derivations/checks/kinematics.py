@@ -13,6 +13,7 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.exact.evaluate import numbers
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Prime
 from rodproof.derivations.proof import curves
@@ -83,7 +84,7 @@ def _simple() -> tuple[Point, ...]:
 
 
 def _route_of_frame(point: Point, ctx: Any) -> Values:
-    c = curves.numbers(ctx, point)
+    c = numbers(ctx, point)
     q, w = ([c[s] for s in part] for part in (_QUATERNIONS[:4], _QUATERNIONS[4:]))
 
     def frame(s: Any) -> curves.Frame:
@@ -102,7 +103,7 @@ def _route_of_frame(point: Point, ctx: Any) -> Values:
 
 def _route(point: Point, ctx: Any) -> Values:
     """The frame, and the components of the free vectors in it."""
-    c, found = curves.numbers(ctx, point), dict(_route_of_frame(point, ctx))
+    c, found = numbers(ctx, point), dict(_route_of_frame(point, ctx))
     here = [[found[s] for s in symbols_of(f"d{k}")] for k in (1, 2, 3)]
     for name, symbols in (("r_rate", STRAINS[3:]), ("n", LOADS[3:]), ("m", LOADS[:3])):
         vector = [c[s] for s in symbols_of(name)]
@@ -125,7 +126,7 @@ def _constrained(v: tuple[sp.Expr, sp.Expr, sp.Expr], name: str) -> VectorIdenti
     fixed = {s: x for s, x in zip(STRAINS[3:], v, strict=True) if s != x}
 
     def route(point: Point, ctx: Any) -> Values:
-        c, found = curves.numbers(ctx, point), dict(_route_of_frame(point, ctx))
+        c, found = numbers(ctx, point), dict(_route_of_frame(point, ctx))
         rows = [[found[s] for s in symbols_of(f"d{k}")] for k in (1, 2, 3)]
         stretch = c[v3] if v[2] == v3 else ctx.mpf(1)
         solved = ctx.lu_solve(ctx.matrix(rows), ctx.matrix([0, 0, stretch]))  # d_k . r' = v_k

@@ -29,7 +29,7 @@ from rodproof.derivations.notation import (
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import IllTyped, Meaning
 from rodproof.derivations.proof.prover import DIGITS, ROUTE_POINTS, Identity, claims
-from rodproof.derivations.proof.rules import _semidefinite
+from rodproof.derivations.proof.rules import semidefinite
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import LOADS, STRAINS, chiral_gap, gamma, iota, p
 from rodproof.derivations.theory import constitutive
@@ -108,7 +108,7 @@ def rest_is_uniform() -> bool:
     """K_ii Q - (K eps)_i^2 >= 0 for every i: the second term of the tangent is O(Q^{p/2})."""
     K = constitutive.stiffness_at_rest()
     facts = Field((chiral_gap,))
-    return all(_semidefinite(sp.Matrix(K[i, i] * K - K[:, i] * K[i, :]), facts) for i in range(6))
+    return all(semidefinite(sp.Matrix(K[i, i] * K - K[:, i] * K[i, :]), facts) for i in range(6))
 
 
 @cache
@@ -333,7 +333,7 @@ def _diagonals_positive() -> bool:
             and loads.equal(theory.inverse_hessian()[i, i], inverse[i, i])
             and rest.sign(stiff[i, i]) == 1
             and rest.sign(soft[i, i]) == 1
-            and _semidefinite(sp.Matrix(soft[i, i] * soft - soft[:, i] * soft[i, :]), rest)
+            and semidefinite(sp.Matrix(soft[i, i] * soft - soft[:, i] * soft[i, :]), rest)
             for i in range(6)
         )
     )

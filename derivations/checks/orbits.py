@@ -13,8 +13,9 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.domains import NumericLaw
 from rodproof.derivations.checks.equilibrium import cross, dot, norm
+from rodproof.derivations.exact.evaluate import number, numbers
 from rodproof.derivations.proof.meaning import Point
 from rodproof.derivations.symbols import CONSTANTS, STRAINS, gamma, p, v3
 from rodproof.derivations.theory import euler as theory
@@ -44,7 +45,7 @@ class Seen:
 
 def turned(quaternion: Sequence[sp.Rational], ctx: Any) -> list[Vector]:
     """Three directors from a quaternion (1, a, b, c), normalised: no Euler angle in it."""
-    a = [ctx.mpf(1), *(ctx.mpf(int(x.p)) / int(x.q) for x in quaternion)]
+    a = [ctx.mpf(1), *(number(ctx, x) for x in quaternion)]
     size = ctx.sqrt(ctx.fsum(x * x for x in a))
     w, x, y, z = (c / size for c in a)
     return [
@@ -60,7 +61,7 @@ class Orbit:
     def __init__(self, constants: Point, ctx: Any) -> None:
         self.ctx = ctx
         with ctx.workdps(ctx.dps + _EXTRA):
-            self.law = _Numbers({**constants, gamma: sp.Integer(1)}, ctx)
+            self.law = NumericLaw({**constants, gamma: sp.Integer(1)}, ctx)
 
     def strains(self, load: Vector) -> Vector:
         """(u, v) of a load in the directors; v_3 not shifted."""
@@ -108,10 +109,10 @@ class Orbit:
         """Everything about the equilibrium with these directors, M_k and N at one point."""
         ctx = self.ctx
         with ctx.workdps(ctx.dps + _EXTRA):
-            tension = ctx.mpf(int(force.p)) / int(force.q)
+            tension = number(ctx, force)
             n = [ctx.mpf(0), ctx.mpf(0), tension]
             frame = _intermediate(directors, ctx)
-            parts = [ctx.mpf(int(x.p)) / int(x.q) for x in couple]
+            parts = [number(ctx, x) for x in couple]
             m = [ctx.fdot(zip(parts, axis, strict=True)) for axis in zip(*frame, strict=True)]
             state = [*directors, m]
             load = [dot(x, d, ctx) for x in (m, n) for d in directors]
@@ -129,15 +130,15 @@ class Orbit:
         """d/ds of a function of the six components, for any force; directors start as the basis."""
         ctx = self.ctx
         with ctx.workdps(ctx.dps + _EXTRA):
-            number = [ctx.mpf(int(x.p)) / int(x.q) for x in load]
+            given = [number(ctx, x) for x in load]
             basis = [[ctx.mpf(int(i == k)) for i in range(3)] for k in range(3)]
-            force = number[3:]
+            force = given[3:]
 
             def seen(state: list[Vector]) -> Vector:
                 *directors, couple = state
                 return [observe([dot(x, d, ctx) for x in (couple, force) for d in directors])]
 
-            return self._slope([*basis, number[:3]], force, seen)[0]
+            return self._slope([*basis, given[:3]], force, seen)[0]
 
 
 def _intermediate(directors: list[Vector], ctx: Any) -> list[Vector]:
@@ -179,7 +180,7 @@ def _columns(matrix: Any) -> list[Vector]:
 
 def residuals_of(point: Point, ctx: Any) -> Vector:
     """Kinematics less law and the balance, projected on e_k, at given unknowns and rates."""
-    c = {k: ctx.mpf(int(x.p)) / int(x.q) for k, x in point.items()}
+    c = numbers(ctx, point)
     return _residuals(c, [c[r] for r in theory.RATES.values()], ctx)
 
 
@@ -218,7 +219,7 @@ def _residuals(c: Mapping[sp.Symbol, Any], rates: Vector, ctx: Any) -> Vector:
 
 def determinant_of(point: Point, ctx: Any) -> Any:
     """The determinant of the six equations by the six rates, the first with its sign turned."""
-    c = {k: ctx.mpf(int(x.p)) / int(x.q) for k, x in point.items()}
+    c = numbers(ctx, point)
     still = _residuals(c, [ctx.mpf(0)] * 6, ctx)
     columns = []
     for k in range(6):
@@ -229,7 +230,7 @@ def determinant_of(point: Point, ctx: Any) -> Any:
 
 def law_at(point: Point, ctx: Any) -> Vector:
     """(Q*, u, v, u_3, v_3) at given angles, M_k and N, by the law in the directors."""
-    c = {k: ctx.mpf(int(x.p)) / int(x.q) for k, x in point.items()}
+    c = numbers(ctx, point)
     orbit = Orbit({k: x for k, x in point.items() if k in CONSTANTS}, ctx)
     frame, directors = _matrix([c[x] for x in theory.ANGLES], ctx)
     couple = list(frame * ctx.matrix([c[x] for x in theory.COUPLE]))

@@ -14,8 +14,8 @@ from typing import Any
 import sympy as sp
 
 from rodproof.derivations.checks import kinematics
-from rodproof.derivations.checks.constitutive import _all_around
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.checks.constitutive import all_around
+from rodproof.derivations.exact.evaluate import context, numbers
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, ForAll, Iff, Prime, instances
 from rodproof.derivations.proof import conditions, curves, sampling
@@ -99,7 +99,7 @@ def _sample_placed(seed: int) -> Point:
 
 def _route_placed(point: Point, ctx: Any) -> Values:
     """q (0, x1, x2, 0) q^{-1} by Hamilton's product, basis vector by basis vector."""
-    c = curves.numbers(ctx, point)
+    c = numbers(ctx, point)
     frame = curves.quaternion_frame([c[q] for q in motion.quaternion])
     moved = curves.plus([c[e] for e in symbols_of("r")], curves.times(c[x1], frame[0]),
                         curves.times(c[x2], frame[1]))  # fmt: skip
@@ -126,8 +126,9 @@ def _sample_strained(seed: int) -> Point:
             x2: sp.Rational(2 + seed, 5), a: sp.Rational(9 + seed, 4)}  # fmt: skip
 
 
-def _route_determinant(point: Point, ctx: Any) -> Values:
-    c = curves.numbers(ctx, point)
+def measured_determinant(point: Point, ctx: Any) -> Values:
+    """det grad chi of a uniformly strained rod, by numerical derivatives of its deformation."""
+    c = numbers(ctx, point)
     rod = curves.uniform_rod(ctx, [c[e] for e in STRAINS[:3]], [c[e] for e in STRAINS[3:]])
 
     def chi(y1: Any, y2: Any, at: Any) -> curves.Vector:
@@ -147,7 +148,7 @@ STRAINED = Meaning(
     components={det: orientation.determinant()}, sample=_sample_strained,
     simple=lambda: tuple({**p, x1: sp.Integer(1), x2: sp.Integer(2), a: sp.Integer(1)}
                          for p in sampling.simple_strains()),
-    route=_route_determinant, route_name="numerical derivatives of the deformation",
+    route=measured_determinant, route_name="numerical derivatives of the deformation",
 )  # fmt: skip
 DETERMINANT = Identity(STRAINED)
 
@@ -212,9 +213,9 @@ class _PositiveOnDisc:
             point = dict(STRAINED.sample(seed))
             evaluate = STRAINED.evaluator(ctx, point)
             place = {x: evaluate(e) for x, e in zip((x1, x2), least.place, strict=True)}
-            c = {**curves.numbers(ctx, point), **place}
+            c = {**numbers(ctx, point), **place}
             near = {k: sp.Rational(*map(int, _ratio(ctx, value))) for k, value in c.items()}
-            found = _route_determinant(near, ctx)[det]
+            found = measured_determinant(near, ctx)[det]
             (claim,) = instances(printed.args[1])
             worst = max(worst, float(abs(found - evaluate(difference(claim)))))
         return Confirmation(worst, 2, 50, "deformation differentiated at the least place")
@@ -297,7 +298,7 @@ def chain() -> OrientationChain:
     return OrientationChain(
         EllipsoidBound(
             strain=STRAINS, rest=(0, 0, 0, 0, 0, 1), stiffness=stiffness_at_rest(),
-            extremals=(_shifted(_all_around(0)),), positive=(chiral_gap,),
+            extremals=(_shifted(all_around(0)),), positive=(chiral_gap,),
             sample=conditions._sample_with_radius,
         )
     )  # fmt: skip

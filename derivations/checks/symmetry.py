@@ -16,8 +16,8 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import _Numbers
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.checks.domains import NumericLaw
+from rodproof.derivations.exact.evaluate import context, numbers
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Every, ForAll, Iff, Q, W, chain, u, v
 from rodproof.derivations.proof import curves, sampling
@@ -133,7 +133,7 @@ class Defines:
         for seed in range(2):
             for operation in self.operations:
                 point = _sample(seed)
-                routed, c = _measured(operation, point, ctx), curves.numbers(ctx, point)
+                routed, c = _measured(operation, point, ctx), numbers(ctx, point)
                 maps = action(operation)
                 for matrix, old, new in ((maps.on_u, STRAINS[:3], routed[0]),
                                          (maps.on_v, STRAINS[3:], routed[1])):  # fmt: skip
@@ -190,7 +190,7 @@ def _sample(seed: int) -> Point:
 
 def _measured(operation: Operation, point: Point, ctx: Any) -> tuple[list[Any], list[Any]]:
     """(u, v) of the transformed rod at s = 0, by numerical derivatives."""
-    c = curves.numbers(ctx, point)
+    c = numbers(ctx, point)
     rod = curves.uniform_rod(ctx, [c[s] for s in STRAINS[:3]], [c[s] for s in STRAINS[3:]])
     evaluate = MATRICES_MEANING.evaluator(ctx, point)
     T, S = ([[evaluate(e) for e in row] for row in matrix.tolist()]
@@ -279,7 +279,7 @@ def energy_confirmed(operations: tuple[Operation, ...]) -> Confirmation:
     worst, ctx = 0.0, context(DIGITS + 15)
     for seed in range(2):
         point = _sample(seed)
-        law = _Numbers(point, ctx)
+        law = NumericLaw(point, ctx)
         old = law.form([law.c[s] for s in STRAINS[:5]] + [law.c[STRAINS[5]] - 1])
         for operation in operations:
             new_u, new_v = _measured(operation, point, ctx)
@@ -327,7 +327,7 @@ class SymmetricExactlyIf:
         change = _change((action(self.operation).on_u, action(self.operation).on_v))
         for seed in range(2):
             point = _sample(seed)
-            law = _Numbers(point, ctx)
+            law = NumericLaw(point, ctx)
             old = law.form([law.c[s] for s in STRAINS[:5]] + [law.c[STRAINS[5]] - 1])
             new_u, new_v = _measured(self.operation, point, ctx)
             new = law.form([*new_u, new_v[0], new_v[1], new_v[2] - 1])

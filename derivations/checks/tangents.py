@@ -12,8 +12,8 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import ON_STRAINS, _Numbers
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.checks.domains import ON_STRAINS, NumericLaw
+from rodproof.derivations.exact.evaluate import context, number
 from rodproof.derivations.notation import FormQ, HessianForm, Partial, Q, W, u, v
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
@@ -116,7 +116,7 @@ def numerical_tangent(seed: int, ctx: Any) -> Any:
 @cache
 def _tangent(seed: int, digits: int) -> Any:
     ctx = context(digits)
-    law = _Numbers({k: x for k, x in _sample(seed).items() if k in (*CONSTANTS, *STRAINS)}, ctx)
+    law = NumericLaw({k: x for k, x in _sample(seed).items() if k in (*CONSTANTS, *STRAINS)}, ctx)
     strain = [law.c[s] for s in STRAINS[:5]] + [law.c[STRAINS[5]] - 1]
     load = law.loads(strain)
     power = law.c[p]
@@ -162,11 +162,11 @@ def _second_derivatives(law: Any, strain: list[Any], ctx: Any) -> Any:
 
 
 def _route(point: Point, ctx: Any) -> Values:
-    law = _Numbers({k: x for k, x in point.items() if k in (*CONSTANTS, *STRAINS)}, ctx)
+    law = NumericLaw({k: x for k, x in point.items() if k in (*CONSTANTS, *STRAINS)}, ctx)
     seed = next(k for k in range(ROUTE_POINTS) if _sample(k) == point)
     tangent = numerical_tangent(seed, ctx)
     strain = [law.c[s] for s in STRAINS[:5]] + [law.c[STRAINS[5]] - 1]
-    w = ctx.matrix([ctx.mpf(int(point[d].p)) / int(point[d].q) for d in theory.DIRECTION])
+    w = ctx.matrix([number(ctx, point[d]) for d in theory.DIRECTION])
     found: dict[sp.Basic, Any] = {
         Partial(load, s): tangent[i, j]
         for i, load in enumerate(LOADS)
@@ -179,7 +179,7 @@ def _route(point: Point, ctx: Any) -> Values:
 
 
 def _route_with_energy(point: Point, ctx: Any) -> Values:
-    law = _Numbers({k: x for k, x in point.items() if k in (*CONSTANTS, *STRAINS)}, ctx)
+    law = NumericLaw({k: x for k, x in point.items() if k in (*CONSTANTS, *STRAINS)}, ctx)
     strain = [law.c[s] for s in STRAINS[:5]] + [law.c[STRAINS[5]] - 1]
     second = _second_derivatives(law, strain, ctx)
     energy = {

@@ -29,7 +29,7 @@ class Evaluator:
 
     def __init__(self, ctx: Any, values: Mapping[sp.Symbol, Any]) -> None:
         self.ctx = ctx
-        self.values = {symbol: number(ctx, value) for symbol, value in values.items()}
+        self.values = numbers(ctx, values)
         self._cache: dict[sp.Basic, Number] = {}
 
     def __call__(self, expr: sp.Basic) -> Number:
@@ -108,3 +108,8 @@ def number(ctx: Any, value: Any) -> Number:
     if isinstance(value, sp.Rational):
         return ctx.mpf(int(value.p)) / int(value.q)
     return ctx.convert(value)
+
+
+def numbers(ctx: Any, point: Mapping[sp.Symbol, Any]) -> dict[sp.Symbol, Number]:
+    """A point in the numbers of the context."""
+    return {symbol: number(ctx, value) for symbol, value in point.items()}

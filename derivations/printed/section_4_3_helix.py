@@ -233,7 +233,8 @@ def _center_line() -> tuple[Statement, ...]:
             check=shape,
             printed=equal(radius, v[3] * sp.sin(theta) / Prime(phi)),
             correction=equal(radius, v[3] * sp.sin(theta) / sp.Abs(Prime(phi))),
-            note="phi' < 0 for M_1 > 0, and the printed radius is then negative. v_3 > 0, as Section 2 asks.",
+            note="phi' < 0 for M_1 > 0, and the printed radius is then negative. v_3 > 0, as "
+            "Section 2 asks.",
         ),
         Statement(
             id="helix-pitch",

@@ -7,19 +7,12 @@ derivatives are numerical and Darboux vectors solve the nine equations by least 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-import sympy as sp
-
 Vector = list[Any]
 Frame = list[Vector]  # the three directors, each in the fixed basis
-
-
-def numbers(ctx: Any, point: Mapping[sp.Symbol, sp.Rational]) -> dict[sp.Symbol, Any]:
-    """A rational point in the numbers of a context."""
-    return {s: ctx.mpf(int(x.p)) / int(x.q) for s, x in point.items()}
 
 
 def cross(a: Vector, b: Vector) -> Vector:

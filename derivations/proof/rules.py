@@ -123,7 +123,7 @@ class EllipsoidBound:
             square = self._matrix(functional**2)
             if square is None or self._negative(functional):
                 return _REJECTED
-            if _semidefinite(bound**2 * self.stiffness - square, field):
+            if semidefinite(bound**2 * self.stiffness - square, field):
                 return Decision(True, True, "sum of squares (LDL^T) and an exact extremal")
         except OutOfReach:
             return _REJECTED
@@ -173,7 +173,7 @@ def _number(ctx: Any, value: sp.Expr) -> Any:
     return ctx.mpf(str(sp.N(value, ctx.dps + 5)))
 
 
-def _semidefinite(matrix: sp.Matrix, field: Field) -> bool:
+def semidefinite(matrix: sp.Matrix, field: Field) -> bool:
     """Exact LDL^T with pivoting: eliminate by positive pivots until nothing is left."""
     a = sp.Matrix(matrix)
     left = list(range(a.rows))

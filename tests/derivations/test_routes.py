@@ -11,7 +11,7 @@ import pytest
 import sympy as sp
 
 from rodproof.derivations import ledger
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.domains import NumericLaw
 from rodproof.derivations.exact.evaluate import context
 from rodproof.derivations.notation import Chain, Every, Implies, Prime, equal, m
 from rodproof.derivations.proof import routed
@@ -188,16 +188,16 @@ MEASURED = (
 def another_law(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """K with 1/100 more in bending, where it is a length squared, and in extension."""
 
-    def inverse(numbers: _Numbers) -> list[list[Any]]:
+    def inverse(numbers: NumericLaw) -> list[list[Any]]:
         other = numbers.K.copy()
         for k in (0, 5):
             other[k, k] += numbers.ctx.mpf(1) / 100
         return [list(row) for row in numbers.ctx.inverse(other).tolist()]
 
     found = cached_property(inverse)
-    found.__set_name__(_Numbers, "_inverse")
+    found.__set_name__(NumericLaw, "_inverse")
     routed._looked.cache_clear()
-    monkeypatch.setattr(_Numbers, "_inverse", found)
+    monkeypatch.setattr(NumericLaw, "_inverse", found)
     yield
     routed._looked.cache_clear()
 

@@ -36,7 +36,7 @@ from rodproof.derivations.checks.couple.route import (
     t,
     torsion,
 )
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import context, number
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Prime
 from rodproof.derivations.proof import sampling
@@ -252,7 +252,7 @@ def shaped(sign: int, circle: bool = False) -> Meaning:
     def numbers(point: Point, ctx: Any) -> Values:
         values = dict(branch.meaning.route(point, ctx))  # type: ignore[misc]
         line, _ = branch.configuration.functions(point, ctx, {})
-        values |= measured_shape(line, ctx.mpf(int(point[s].p)) / int(point[s].q),
+        values |= measured_shape(line, number(ctx, point[s]),
                                  values[phi_s], ctx)  # fmt: skip
         return values | {stretch: values[v3]}
 
@@ -289,11 +289,11 @@ class OfState:
             assert found is not None
             worst, points = max(worst, found.residual), points + found.points
             for seed in range(ROUTE_POINTS):
-                worst = max(worst, self._rebuilt(branch, seed, printed, ctx))
+                worst = max(worst, self.rebuilt(branch, seed, printed, ctx))
         return Confirmation(worst, points, DIGITS, ROUTE_NAME)
 
     @staticmethod
-    def _rebuilt(branch: Branch, seed: int, printed: sp.Basic, ctx: Any) -> float:
+    def rebuilt(branch: Branch, seed: int, printed: sp.Basic, ctx: Any) -> float:
         """The distance from equilibrium, and from the same couple, of the stated configuration."""
         inputs = {phi, psi, *(x for base in (d1, d2, d3, r) for x in entries(base, (0, 0, 0)))}
         changed = {

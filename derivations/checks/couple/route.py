@@ -8,7 +8,7 @@ from typing import Any
 import sympy as sp
 
 from rodproof.derivations.checks import equilibrium as route
-from rodproof.derivations.exact.evaluate import Evaluator
+from rodproof.derivations.exact.evaluate import Evaluator, number
 from rodproof.derivations.notation import Prime
 from rodproof.derivations.proof.meaning import Point, Values
 from rodproof.derivations.symbols import STRAINS, gamma
@@ -88,7 +88,7 @@ def _folded(expr: sp.Expr, values: dict[sp.Symbol, Any], point: Point, ctx: Any)
 def measured(state: Configuration, point: Point, ctx: Any, changed: Values) -> tuple[Values, float]:
     """What a configuration carries at s, and how far it is from equilibrium without force."""
     line, frame = state.functions(point, ctx, changed)
-    at = ctx.mpf(int(point[s].p)) / int(point[s].q)
+    at = number(ctx, point[s])
     balance = route.balance_residual(line, frame, {**point, gamma: sp.Integer(1)}, ctx, [at])
     (u, v), m, directors = balance.strains[0], balance.couples[0], frame(at)
     found: dict[sp.Basic, Any] = dict(zip(STRAINS, (*u, *v), strict=True))

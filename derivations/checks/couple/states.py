@@ -13,7 +13,7 @@ from rodproof.derivations.checks.couple.domains import Branch, OfState, on_all
 from rodproof.derivations.checks.couple.equations import TWISTED
 from rodproof.derivations.checks.couple.route import c, length, r_s
 from rodproof.derivations.checks.thrust.numeric import strains_at
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import context, number
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
 from rodproof.derivations.notation import (
@@ -53,7 +53,7 @@ class CenterLine:
 
     def confirm(self, printed: sp.Basic) -> Confirmation | None:
         worst = [
-            OfState._rebuilt(b, seed, printed, context(DIGITS + 15))
+            OfState.rebuilt(b, seed, printed, context(DIGITS + 15))
             for b in self.branches for seed in range(ROUTE_POINTS)
         ]  # fmt: skip
         return Confirmation(max(worst), len(worst), DIGITS, domains.ROUTE_NAME)
@@ -194,7 +194,7 @@ def _route_far(couple: sp.Symbol) -> Callable[[Point, Any], Values]:
     """The strains under couples of 10^400 and -10^400, M_2 = 0 and psi = psi(0)."""
 
     def route(point: Point, ctx: Any) -> Values:
-        turn = ctx.mpf(int(point[psi_0].p)) / int(point[psi_0].q)
+        turn = number(ctx, point[psi_0])
         found: dict[sp.Basic, Any] = {}
         for sign, target in ((1, sp.oo), (-1, -sp.oo)):
             size = sign * ctx.mpf(10) ** 400

@@ -8,11 +8,11 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.constitutive import Y, _constants_of_all_signs, dim
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.constitutive import Y, constants_of_all_signs, dim
+from rodproof.derivations.checks.domains import NumericLaw
 from rodproof.derivations.checks.routes import law
 from rodproof.derivations.checks.routes.law import Values
-from rodproof.derivations.exact.evaluate import Evaluator, context
+from rodproof.derivations.exact.evaluate import Evaluator, context, numbers
 from rodproof.derivations.notation import Every, Iff, PositiveDefinite, instances
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import IllTyped
@@ -35,7 +35,7 @@ from rodproof.derivations.theory.orientation import a
 # -- moduli ------------------------------------------------------------------------------------
 
 
-def _measured(values: Values, ctx: Any) -> list[Any]:
+def measured_moduli(values: Values, ctx: Any) -> list[Any]:
     """The 21 entries of the stiffness at rest on and above the diagonal."""
     tangent = law.stiffness_at_rest(values, ctx)
     return [tangent[i, j] for i in range(6) for j in range(i, 6)]
@@ -45,15 +45,15 @@ def _moduli(printed: sp.Basic, _: Any) -> Iterator[Any]:
     """Each is an entry of the stiffness; together they move with every constant but p, rank 5."""
     ctx, where = context(law.SPARE), []
     for seed in range(ROUTE_POINTS):
-        values = law.numbers(sampling.constants(seed), ctx)
-        entries, evaluate = _measured(values, ctx), Evaluator(ctx, values)
+        values = numbers(ctx, sampling.constants(seed))
+        entries, evaluate = measured_moduli(values, ctx), Evaluator(ctx, values)
         for modulus in printed.args:
             misses = [differ(entry, evaluate(modulus)) for entry in entries]
             where.append(misses.index(min(misses)))
             yield min(misses)
 
     def stated(at: Values) -> list[Any]:
-        return [_measured(at, ctx)[k] for k in where[: len(printed.args)]]
+        return [measured_moduli(at, ctx)[k] for k in where[: len(printed.args)]]
 
     jacobian = law.logarithmic_jacobian(stated, values, CONSTANTS, ctx)
     moved = [ctx.norm(jacobian[:, k]) for k in range(len(CONSTANTS))]
@@ -85,15 +85,15 @@ def _least(form: Callable[[list[Any]], Any], ctx: Any) -> Any:
 
 def _gap(values: Values, ctx: Any) -> Any:
     """The least eigenvalue of Q."""
-    return _least(_Numbers(values, ctx).form, ctx)
+    return _least(NumericLaw(values, ctx).form, ctx)
 
 
 def _all_sorts(ctx: Any) -> Iterator[dict[sp.Symbol, Any]]:
     """Small constants and generic ones, these on both sides of where Q degenerates."""
-    for point in _constants_of_all_signs():
-        yield law.numbers(point, ctx)
+    for point in constants_of_all_signs():
+        yield numbers(ctx, point)
     for seed in range(ROUTE_POINTS):
-        values = law.numbers(sampling.constants(seed), ctx)
+        values = numbers(ctx, sampling.constants(seed))
         beyond = 2 * values[beta] * values[eta] * (-1) ** seed
         yield from law.border(
             lambda at: _gap(at, ctx), values, iota, ctx, (values[iota], beyond)
@@ -117,7 +117,7 @@ def _stated_form(
     """A transcribed form as a function of six numbers; what it has no business with is generic."""
     if not isinstance(form, PositiveDefinite):
         raise IllTyped("a definite form is needed here")
-    generic = law.numbers(sampling.with_strains(0) | sampling.with_loads(0), ctx)
+    generic = numbers(ctx, sampling.with_strains(0) | sampling.with_loads(0))
     others = {x: generic[x] for x in (*STRAINS, *LOADS)}
 
     def at(shift: list[Any]) -> Any:
@@ -136,7 +136,7 @@ def _forms(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
         if not all(excess(h, Evaluator(ctx, values)) > 0 for h in hypotheses):
             continue
         held += 1
-        measured = _Numbers(values, ctx)
+        measured = NumericLaw(values, ctx)
         known = (STRAINS, (0, 0, 0, 0, 0, 1), measured.form), (LOADS, (0,) * 6, measured.dual)
         for form, (symbols, rest, wanted) in zip(stated, known, strict=True):
             at = _stated_form(form, symbols, rest, values, ctx)
@@ -160,7 +160,7 @@ def _saturation(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
     """The strain under a tension that counts up to Y only, at the two loads of the claim."""
     (claim,) = claims(printed)
     for seed in range(ROUTE_POINTS):
-        values = law.numbers({**sampling.constants(seed), Y: sp.Rational(7 + 4 * seed, 5)}, ctx)
+        values = numbers(ctx, {**sampling.constants(seed), Y: sp.Rational(7 + 4 * seed, 5)})
         loads = [Evaluator(ctx, values)(side.args[0]) for side in claim.sides]
         reached = [law.strains(values, law.unit(5, min(load, values[Y])), ctx)[5] for load in loads]
         yield differ(*reached) if abs(loads[0] - loads[1]) > ZERO else math.inf
@@ -177,7 +177,7 @@ def _other_units(
     values: Values, factors: dict[sp.Symbol, Any], ctx: Any
 ) -> Iterator[Any]:  # fmt: skip
     """The law in other units of length and force: how far the strains are from scaling."""
-    factor = law.numbers(_UNITS, ctx)
+    factor = numbers(ctx, _UNITS)
     size, force = factor[dimensions.length], factor[dimensions.force]
     load = [values[x] for x in LOADS]
     moved = [force * size * f for f in load[:3]] + [force * f for f in load[3:]]
@@ -196,7 +196,7 @@ def _dimensions(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
             raise IllTyped("a dimension is needed here")
         factors[constant.args[0]] = Evaluator(ctx, _UNITS)(scale)
     for seed in range(ROUTE_POINTS):
-        yield from _other_units(law.numbers(sampling.with_loads(seed), ctx), factors, ctx)
+        yield from _other_units(numbers(ctx, sampling.with_loads(seed)), factors, ctx)
 
 
 DIMENSIONS = Route("the law with K solved numerically, in other units of both kinds", _dimensions)
@@ -211,10 +211,10 @@ def _factors(ctx: Any) -> dict[sp.Symbol, Any]:
 def _groups(printed: sp.Basic, _: Any) -> Iterator[Any]:
     """The groups do not notice other units, are independent, and there are all of them."""
     ctx = context(law.SPARE)
-    factors = {**_factors(ctx), **law.numbers(_UNITS, ctx)}
+    factors = {**_factors(ctx), **numbers(ctx, _UNITS)}
     quantities = tuple(factors)
     for seed in range(ROUTE_POINTS):
-        values = law.numbers(sampling.with_loads(seed), ctx)
+        values = numbers(ctx, sampling.with_loads(seed))
         yield from _other_units(values, factors, ctx)
         values |= {dimensions.length: ctx.mpf(19) / 7, dimensions.force: ctx.mpf(23) / 9}
 
@@ -235,7 +235,7 @@ GROUPS = Route("the law and the groups in other units; singular values of the ex
 def _units(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
     """In units in which the chosen quantities are 1 they are, and the law is the same."""
     for seed in range(ROUTE_POINTS):
-        values = law.numbers(sampling.with_loads(seed), ctx)
+        values = numbers(ctx, sampling.with_loads(seed))
         values |= {dimensions.length: ctx.mpf(19) / 7}
         chosen = {dimensions.length: 1 / values[dimensions.length], gamma: 1 / values[gamma]}
         for claim in claims(printed):
@@ -256,13 +256,14 @@ UNITS = Route("the law with K solved numerically, in units of L and gamma", _uni
 # -- conditions of Section 3.2 -------------------------------------------------------------------
 
 
-def _least_v3(values: Values, ctx: Any) -> Any:
+def least_v3(values: Values, ctx: Any) -> Any:
+    """The infimum of v_3 over the strains within the limit."""
     return 1 - law.reach(values, law.unit(5), ctx)
 
 
 def _least_apart(values: Values, ctx: Any) -> Any:
     """Least v_3 less a times the largest flexure, each by itself."""
-    return _least_v3(values, ctx) - values[a] * law.reach(values, law.unit(0), ctx)
+    return least_v3(values, ctx) - values[a] * law.reach(values, law.unit(0), ctx)
 
 
 def _on_the_strains(measure: Callable[[Values, Any], Any], symbol: sp.Symbol) -> Route:
@@ -270,7 +271,7 @@ def _on_the_strains(measure: Callable[[Values, Any], Any], symbol: sp.Symbol) ->
         (claim,) = instances(printed)
         parts = claim.args if isinstance(claim, Iff) else (claim,)
         for seed in range(ROUTE_POINTS):
-            values = law.numbers({**sampling.constants(seed), a: sp.Rational(1, 7)}, ctx)
+            values = numbers(ctx, {**sampling.constants(seed), a: sp.Rational(1, 7)})
             values[eta] += 3  # far above the border, that of the radius included
             values[alpha] += seed
             low = 1.01 * abs(values[iota]) / values[beta] if symbol == eta else 1e-3
@@ -282,5 +283,5 @@ def _on_the_strains(measure: Callable[[Values, Any], Any], symbol: sp.Symbol) ->
     return Route("least value over Q < 1 by a numerical linear solve, on both sides", misses)
 
 
-V3_POSITIVE = _on_the_strains(_least_v3, eta)
+V3_POSITIVE = _on_the_strains(least_v3, eta)
 RADIUS = _on_the_strains(_least_apart, a)

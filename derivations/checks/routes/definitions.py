@@ -9,7 +9,7 @@ from typing import Any
 import sympy as sp
 
 from rodproof.derivations.checks.kinematics import FRAMES, VECTORS
-from rodproof.derivations.checks.orientation import STRAINED, _route_determinant, det
+from rodproof.derivations.checks.orientation import STRAINED, det, measured_determinant
 from rodproof.derivations.exact.evaluate import Evaluator
 from rodproof.derivations.notation import instances
 from rodproof.derivations.proof.prover import claims
@@ -92,7 +92,7 @@ def _volume(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
         for sense in (1, -1):
             point = dict(STRAINED.sample(seed))
             point[STRAINS[5]] *= 4 * sense  # far from the border, on either side
-            found = _route_determinant(point, ctx)[det]
+            found = measured_determinant(point, ctx)[det]
             stated = excess(condition, Evaluator(ctx, {det: found}))
             yield at_odds(STRAINED.evaluator(ctx, point)(det), stated)
             yield abs(STRAINED.evaluator(ctx, point)(det) - found)

@@ -12,8 +12,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import _Numbers
-from rodproof.derivations.exact.evaluate import number
+from rodproof.derivations.checks.domains import NumericLaw
 
 Values = Mapping[sp.Symbol, Any]
 
@@ -21,26 +20,21 @@ Values = Mapping[sp.Symbol, Any]
 SPARE = 130
 
 
-def numbers(point: Values, ctx: Any) -> dict[sp.Symbol, Any]:
-    """A point in the numbers of a context."""
-    return {symbol: number(ctx, value) for symbol, value in point.items()}
-
-
 def strains(values: Values, load: Sequence[Any], ctx: Any) -> list[Any]:
     """Strains from rest under a load: (gamma^p + y^p)^{-1/p} K^{-1} sigma, K solved numerically."""
-    return _Numbers(values, ctx).under(load)
+    return NumericLaw(values, ctx).under(load)
 
 
 def stiffness_at_rest(values: Values, ctx: Any) -> Any:
     """D^2 W at rest, as the inverse of D^2 W*: the strains under loads of size 1e-200."""
-    h, measured = ctx.mpf(10) ** -200, _Numbers(values, ctx)
+    h, measured = ctx.mpf(10) ** -200, NumericLaw(values, ctx)
     columns = [measured.under(unit(j, h)) for j in range(6)]
     return ctx.inverse(ctx.matrix([[columns[j][i] / h for j in range(6)] for i in range(6)]))
 
 
 def reach(values: Values, slope: Sequence[Any], ctx: Any) -> Any:
     """The least upper bound of an affine function of the strains from rest over Q < 1."""
-    return ctx.sqrt(_Numbers(values, ctx).dual(slope))
+    return ctx.sqrt(NumericLaw(values, ctx).dual(slope))
 
 
 def unit(index: int, size: Any = 1) -> list[Any]:

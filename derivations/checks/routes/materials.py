@@ -9,11 +9,11 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.domains import NumericLaw
 from rodproof.derivations.checks.routes import law
-from rodproof.derivations.checks.routes.constants import _least_v3, _measured
+from rodproof.derivations.checks.routes.constants import least_v3, measured_moduli
 from rodproof.derivations.checks.routes.law import Values
-from rodproof.derivations.exact.evaluate import Evaluator, context
+from rodproof.derivations.exact.evaluate import Evaluator, context, numbers
 from rodproof.derivations.notation import instances
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.prover import ROUTE_POINTS, claims
@@ -34,7 +34,7 @@ def _losses(values: Values, given: Values, rates: list[Any], ctx: Any) -> tuple[
     The first from the loads m = DW + mu u_t, n = DW + nu v_t; the second from the loads that a
     root search finds at eps + alpha eps_t.
     """
-    measured = _Numbers(values, ctx)
+    measured = NumericLaw(values, ctx)
     eps = [measured.c[x] for x in STRAINS[:5]] + [measured.c[v3] - 1]
     now = measured.loads(eps)
     ahead = measured.loads([e + given[time] * r for e, r in zip(eps, rates, strict=True)])
@@ -58,7 +58,7 @@ def _ranges(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
             yield math.inf
         stated.add(claim.sides[0])
     motions = [law.unit(k, ctx.mpf(1) / 50) for k in (0, 2, 4, 5)]
-    values = law.numbers(sampling.with_strains(0), ctx)
+    values = numbers(ctx, sampling.with_strains(0))
     size = dict(zip(_OURS, (ctx.mpf(k) / 7 for k in (2, 3, 5, 9)), strict=True))
 
     def least(signs: dict[sp.Symbol, int]) -> Any:
@@ -82,7 +82,7 @@ def _dsdna(seed: int, ctx: Any) -> dict[sp.Symbol, Any]:
     """Generic gamma, p, zeta and units, and the constants that the four data then give."""
     point = {**sampling.constants(seed), gamma: sp.Rational(311 + seed, 7),
              pN: sp.Rational(5, 3), nm: sp.Rational(7, 4)}  # fmt: skip
-    values = law.numbers(point, ctx)
+    values = numbers(ctx, point)
     given = {x: Evaluator(ctx, values)(e) for x, e in dna.constants().items()}
     return {**values, **given}
 
@@ -91,7 +91,7 @@ def _datum(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
     """Both sides are one entry of the stiffness at rest of a rod with the constants of dsDNA."""
     for seed in range(ROUTE_POINTS):
         values = _dsdna(seed, ctx)
-        evaluate, entries = Evaluator(ctx, values), _measured(values, ctx)
+        evaluate, entries = Evaluator(ctx, values), measured_moduli(values, ctx)
         left, right = (evaluate(side) for side in printed.sides)
         yield max(differ(left, right), min(differ(right, entry) for entry in entries))
 
@@ -102,7 +102,7 @@ DATUM = Route("stiffness at rest from strains under loads of size 1e-200, invert
 def _fixed(printed: sp.Basic, _: Any) -> Iterator[Any]:
     """The quantities and the four measured moduli are functions of one another."""
     ctx = context(law.SPARE)
-    values = law.numbers(sampling.constants(0), ctx)
+    values = numbers(ctx, sampling.constants(0))
     where = [m.entry for m in dna.DSDNA.values()]
 
     def moduli(at: Values) -> list[Any]:
@@ -133,11 +133,11 @@ def _orientation(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
             given = {x: Evaluator(ctx, free)(e) for x, e in dna.constants().items()}
             return {**free, **given}
 
-        pair = law.border(lambda at: _least_v3(rod(at), ctx), values, gamma, ctx, (1, 9000))
+        pair = law.border(lambda at: least_v3(rod(at), ctx), values, gamma, ctx, (1, 9000))
         for at in (values, *pair):
             evaluate = Evaluator(ctx, rod(at))
             sides = [excess(side, evaluate) for side in claim.args]
-            yield at_odds(_least_v3(rod(at), ctx), *sides)
+            yield at_odds(least_v3(rod(at), ctx), *sides)
 
 
 ORIENTATION = Route("least v_3 over Q < 1 by a numerical linear solve, on both sides",

@@ -9,12 +9,12 @@ from typing import Any
 import sympy as sp
 
 from rodproof.derivations.checks.couple.route import length
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.domains import NumericLaw
 from rodproof.derivations.checks.equilibrium import cross, dot, norm
 from rodproof.derivations.checks.routes import law
 from rodproof.derivations.checks.routes.law import Values
 from rodproof.derivations.checks.thrust.numeric import turned
-from rodproof.derivations.exact.evaluate import Evaluator, context
+from rodproof.derivations.exact.evaluate import Evaluator, context, numbers
 from rodproof.derivations.notation import Every, Iff, Prime, instances
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.prover import DIGITS, ROUTE_POINTS, claims
@@ -39,7 +39,7 @@ def _generic(seed: int, ctx: Any) -> dict[sp.Symbol, Any]:
     """Generic constants, couples and angles."""
     point = {**sampling.with_loads(seed), gamma: sp.Integer(1) + seed}
     angles = {phi: (-9, 14)[seed % 2], theta: (11, 25)[seed % 2], psi: (8, -13)[seed % 2]}
-    return law.numbers({**point, **{x: sp.Rational(k, 19) for x, k in angles.items()}}, ctx)
+    return numbers(ctx, {**point, **{x: sp.Rational(k, 19) for x, k in angles.items()}})
 
 
 def _poynting(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
@@ -124,7 +124,7 @@ def _shape(values: Values, load: tuple[Any, Any, Any], ctx: Any) -> list[Any]:
     along that motion.
     """
     size, polar, twist = load
-    measured = _Numbers(values, ctx)
+    measured = NumericLaw(values, ctx)
     spatial = [ctx.mpf(0), ctx.mpf(0), size]
     step = ctx.mpf(10) ** -30
 
@@ -189,7 +189,7 @@ FAMILY = Route(
 
 
 def _rates(
-    measured: _Numbers, values: Values, across: Mapping[sp.Symbol, Any], ctx: Any
+    measured: NumericLaw, values: Values, across: Mapping[sp.Symbol, Any], ctx: Any
 ) -> dict[sp.Basic, Any]:
     """theta' and phi' of a rod that carries these M_1, M_2, M_3 and no force: d_3' = u x d_3."""
     polar, azimuth = values[theta], values[phi]
@@ -209,11 +209,11 @@ def _zeros(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
     (claim,) = instances(printed)
     for seed in range(ROUTE_POINTS):
         values = _generic(seed, ctx)
-        measured = _Numbers(values, ctx)
+        measured = NumericLaw(values, ctx)
         generic = dict(zip((M1, M2, M3), (values[x] for x in LOADS[:3]), strict=True))
 
         def sides(across: Mapping[sp.Symbol, Any], values: Values = values,
-                  measured: _Numbers = measured) -> list[Any]:  # fmt: skip
+                  measured: NumericLaw = measured) -> list[Any]:  # fmt: skip
             given = _rates(measured, values, across, ctx)
             found = []
             for side in claim.args:

@@ -12,13 +12,13 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.domains import NumericLaw
 from rodproof.derivations.checks.equilibrium import cross, norm
 from rodproof.derivations.checks.routes import law
 from rodproof.derivations.checks.routes.law import Values
 from rodproof.derivations.checks.thrust import points
-from rodproof.derivations.checks.thrust.numeric import NoShearedState, thrust_at, turned
-from rodproof.derivations.exact.evaluate import Evaluator
+from rodproof.derivations.checks.thrust.numeric import NoShearedState, off_axis, thrust_at, turned
+from rodproof.derivations.exact.evaluate import Evaluator, numbers
 from rodproof.derivations.notation import Either, Iff, Implies, instances
 from rodproof.derivations.proof.meaning import Point
 from rodproof.derivations.proof.prover import ROUTE_POINTS, claims
@@ -32,7 +32,7 @@ _FAR = 60  # the power of ten of a thrust that stands for an infinite one
 
 def _state(point: Point, thrust: Any, polar: Any, ctx: Any) -> dict[sp.Symbol, Any]:
     """What a claim may name, in a frame turned numerically; and |r' x n| as `couple`."""
-    values = law.numbers(point, ctx)
+    values = numbers(ctx, point)
     frame = turned(ctx, values[phi], polar, values[psi])
     force = [thrust * d[2] for d in frame]
     strain = law.strains(values, [0, 0, 0, *force], ctx) if thrust else [ctx.mpf(0)] * 6
@@ -50,8 +50,8 @@ _couple = sp.Symbol("couple")
 
 def _sheared(seed: int, sign: int, ctx: Any, **changed: Any) -> dict[sp.Symbol, Any]:
     """A sheared state in tension (sign 1) or compression, its thrust by root search."""
-    point = {**points._on_the_branch(seed), **{_NAMED[k]: x for k, x in changed.items()}}
-    polar = law.numbers(point, ctx)[points.angle]
+    point = {**points.on_the_branch(seed), **{_NAMED[k]: x for k, x in changed.items()}}
+    polar = numbers(ctx, point)[points.angle]
     thrust = thrust_at(point, polar, ctx)
     return _state(point, sign * thrust, polar if sign > 0 else ctx.pi - polar, ctx)
 
@@ -69,7 +69,7 @@ def _alternatives(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
     given, claim = printed.args if isinstance(printed, Implies) else (None, printed)
     (whole, either) = instances(claim)[0].args
     for seed in range(ROUTE_POINTS):
-        point = points._on_the_branch(seed)
+        point = points.on_the_branch(seed)
         found = [_sheared(seed, sign, ctx) for sign in (1, -1)]
         for thrust in (found[0][N], -found[0][N]):
             found += [_state(point, thrust, polar, ctx)
@@ -109,7 +109,7 @@ def _signs(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
     """Angles by a search for sign changes of r' x n over (0, pi), for thrusts of both signs."""
     (claim,) = instances(printed)
     for seed in range(ROUTE_POINTS):
-        point = points._on_the_branch(seed)
+        point = points.on_the_branch(seed)
         size = _sheared(seed, 1, ctx)[N]
         for thrust in (size, -size):
             state = _state(point, thrust, _sheared_angle(point, thrust, ctx), ctx)
@@ -120,18 +120,16 @@ def _signs(printed: sp.Basic, ctx: Any) -> Iterator[Any]:
 
 def _sheared_angle(point: Point, thrust: Any, ctx: Any) -> Any:
     """The angle in (0, pi) at which r' is along g_3 under a thrust of either sign."""
-    measured = _Numbers(point, ctx)
+    measured = NumericLaw(point, ctx)
 
-    def off_axis(polar: Any) -> Any:
-        load = [0, 0, 0, -thrust * ctx.sin(polar), 0, thrust * ctx.cos(polar)]
-        strain = measured.under(load)
-        return strain[3] * ctx.cos(polar) / ctx.sin(polar) + 1 + strain[5]
+    def across(at: Any) -> Any:
+        return off_axis(measured, thrust, at)
 
     places = [ctx.pi * (2 * k + 1) / 48 for k in range(24)]
-    ends = [off_axis(x) for x in places]
+    ends = [across(x) for x in places]
     for k in range(23):
         if ends[k] * ends[k + 1] < 0:
-            return ctx.findroot(off_axis, (places[k], places[k + 1]), solver="anderson")
+            return ctx.findroot(across, (places[k], places[k + 1]), solver="anderson")
     raise ValueError("no sheared state under this thrust")
 
 
@@ -148,7 +146,7 @@ def _axial(values: Values, ctx: Any) -> Any:
 
 def _softness(values: Values, ctx: Any) -> Any:
     """By how much a small force across d_3 strains the rod more than one along it."""
-    h, measured = ctx.mpf(10) ** -200, _Numbers(values, ctx)
+    h, measured = ctx.mpf(10) ** -200, NumericLaw(values, ctx)
     return (measured.under(law.unit(3, h))[3] - measured.under(law.unit(5, h))[5]) / h
 
 
@@ -165,7 +163,7 @@ def _headroom(values: Values, ctx: Any) -> Any:
 def _near(measure: Any, seed: int, ctx: Any) -> tuple[dict[sp.Symbol, Any], ...]:
     """A generic rod, and the same where a measured quantity changes sign as zeta does."""
     point = points.sheared_constants(seed)
-    values = law.numbers(point, ctx)
+    values = numbers(ctx, point)
     stiff = values[eta] if measure is _softness else _stiffest(values, ctx)
     pair = law.border(lambda at: measure(at, ctx), values, zeta, ctx, (values[zeta] / 9, stiff))
     return (values, *pair)

@@ -7,10 +7,10 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.domains import NumericLaw
 from rodproof.derivations.checks.routes import law
 from rodproof.derivations.checks.thrust.numeric import turned
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import context, numbers
 from rodproof.derivations.notation import LimitOf, Partial
 from rodproof.derivations.proof import sampling
 from rodproof.derivations.proof.meaning import Point, Values
@@ -25,7 +25,7 @@ from rodproof.derivations.theory.frames import phi, psi, theta
 
 def columns(point: Point, ctx: Any) -> Values:
     """Components by solving for them, of vectors built in a frame that is turned numerically."""
-    values = law.numbers(point, ctx)
+    values = numbers(ctx, point)
     frame = turned(ctx, *(values[x] for x in (phi, theta, psi)))
     found: dict[sp.Basic, Any] = {}
     parts = (STRAINS[:3], STRAINS[3:], LOADS[:3], LOADS[3:])
@@ -53,7 +53,7 @@ def _entries(name: str, matrix: Any) -> dict[sp.Basic, Any]:
 
 def stress(point: Point, ctx: Any) -> Values:
     """|T| from its eigenvalues; e with the strain radius from integrating its slope in b|T|."""
-    values = law.numbers(point, ctx)
+    values = numbers(ctx, point)
     a, b, power = (values[sp.Symbol(name, positive=True)] for name in ("a", "b", "p"))
     T = _tensor("T", values, ctx, symmetric=True)
     norm = ctx.sqrt(ctx.fsum(x**2 for x in ctx.eigsy(T, eigvals_only=True)))
@@ -68,7 +68,7 @@ def stress(point: Point, ctx: Any) -> Values:
 
 def deformation(point: Point, ctx: Any) -> Values:
     """e from the lengths of short lines before and after: dX solves F dX = dx."""
-    F = _tensor("F", law.numbers(point, ctx), ctx, symmetric=False)
+    F = _tensor("F", numbers(ctx, point), ctx, symmetric=False)
 
     def grown(dx: list[Any]) -> Any:
         """dx . e dx."""
@@ -90,7 +90,7 @@ def deformation(point: Point, ctx: Any) -> Values:
 
 def _radial(values: Mapping[sp.Symbol, Any], ctx: Any) -> Any:
     """The load radius as a function of the strain radius, by root search along one ray."""
-    measured = _Numbers(values, ctx)
+    measured = NumericLaw(values, ctx)
     ray = law.unit(5, 1 / ctx.sqrt(measured.form(law.unit(5))))
 
     def radius(x: Any) -> Any:
@@ -104,7 +104,7 @@ def slopes(stiffness: sp.Symbol) -> Any:
 
     def route(point: Point, _: Any) -> Values:
         ctx = context(3 * law.SPARE)  # dy/dx of 1e40 and more, differenced twice
-        values = law.numbers(point, ctx)
+        values = numbers(ctx, point)
         radius, power, G = _radial(values, ctx), values[p], values[gamma]
 
         def rate(x: Any) -> Any:
@@ -113,7 +113,7 @@ def slopes(stiffness: sp.Symbol) -> Any:
 
         def at(load: Any) -> Any:
             """The strain radius under a load, from the law with K solved numerically."""
-            measured, tension = _Numbers(values, ctx), law.unit(5)
+            measured, tension = NumericLaw(values, ctx), law.unit(5)
             size = load / ctx.sqrt(measured.dual(tension))
             return ctx.sqrt(measured.form(law.strains(values, [size * f for f in tension], ctx)))
 
@@ -133,7 +133,7 @@ def slopes(stiffness: sp.Symbol) -> Any:
 def stiff_in_shear(point: Point, _: Any) -> Values:
     """The shear strains at zeta = 10^60."""
     ctx = context(2 * law.SPARE)  # entries of K are 10^120 apart
-    values = {**law.numbers(point, ctx), zeta: ctx.mpf(10) ** 60}
+    values = {**numbers(ctx, point), zeta: ctx.mpf(10) ** 60}
     strain = law.strains(values, [values[x] for x in LOADS], ctx)
     return {LimitOf(x, zeta, sp.oo): strain[3 + k] for k, x in enumerate(STRAINS[3:5])}
 
@@ -149,8 +149,8 @@ def two_times(loss: sp.Symbol) -> Any:
 
     def route(point: Point, _: Any) -> Values:
         ctx = context(2 * law.SPARE)
-        values = law.numbers({**sampling.constants(0), **point}, ctx)
-        measured, x = _Numbers(values, ctx), 1 - ctx.mpf(10) ** -40
+        values = numbers(ctx, {**sampling.constants(0), **point})
+        measured, x = NumericLaw(values, ctx), 1 - ctx.mpf(10) ** -40
         small, half = ctx.mpf(10) ** -110, x / ctx.sqrt(2)
         u, v = values[time_u], values[time_v]
 

@@ -21,7 +21,7 @@ from rodproof.derivations.checks.thrust.moduli import (
     sides_of,
 )
 from rodproof.derivations.checks.thrust.states import REJECTED, InAllStates
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import context, number
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
 from rodproof.derivations.notation import Chain, Implies, LimitOf, instances
@@ -290,7 +290,7 @@ def angle_at_p2() -> ClosedAngle:
     return ClosedAngle(
         left=points.theta_hat, residual=lambda X: (c * X) ** 2 - N**-2 - (a - c * X**2),
         facts=(*points.BRANCH_EXISTS, N, gap), below_one=gap, sample=_above_threshold,
-        power=sp.Integer(2), thrust=lambda point, ctx: ctx.mpf(int(point[N].p)) / int(point[N].q),
+        power=sp.Integer(2), thrust=lambda point, ctx: number(ctx, point[N]),
     )  # fmt: skip
 
 

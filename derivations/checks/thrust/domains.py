@@ -14,13 +14,12 @@ from typing import Any
 import sympy as sp
 
 from rodproof.derivations.checks.thrust.numeric import (
-    _number,
-    _route_at,
-    _route_f,
-    _route_far,
-    _route_straight,
     cosine_at,
+    route_at,
+    route_f,
+    route_far,
     route_on_branch,
+    route_straight,
     strains_at,
     thrust_at,
 )
@@ -29,20 +28,20 @@ from rodproof.derivations.checks.thrust.points import (
     SOFTER_IN_SHEAR,
     N_thresh,
     R,
-    _above,
-    _generic,
-    _on_the_branch,
-    _small_limits,
-    _small_points,
-    _small_states,
     a,
+    above,
     angle,
     b,
     c,
     delta,
     fN,
+    generic,
+    on_the_branch,
     psi0,
     scalar_v,
+    small_limits,
+    small_points,
+    small_states,
     strand_radius,
     strand_sense,
     strand_stretch,
@@ -54,6 +53,7 @@ from rodproof.derivations.checks.thrust.points import (
     x_N,
     x_Nk,
 )
+from rodproof.derivations.exact.evaluate import number
 from rodproof.derivations.notation import LimitOf
 from rodproof.derivations.proof.meaning import Meaning, Point, Values
 from rodproof.derivations.symbols import (
@@ -108,7 +108,7 @@ def _couples() -> dict[sp.Symbol, sp.Expr]:
 
 
 COUPLES = Meaning(
-    name="all couples and angles", free=LOADS[:3], components=_couples(), sample=_generic,
+    name="all couples and angles", free=LOADS[:3], components=_couples(), sample=generic,
     simple=lambda: (),
 )  # fmt: skip
 
@@ -118,8 +118,8 @@ def _any_angle(sign: int) -> Meaning:
         name=f"any angles, N {'>' if sign > 0 else '<'} 0", free=(R, theta, phi, psi),
         components=_components(sign * R, theta, phi, psi), functions=_f(sign * R),
         positive=(chiral_gap, theory.dual_form(R, theta)),
-        sample=_generic, simple=_small_points,
-        route=_route_at(sign, lambda ctx, point: _number(ctx, point[theta])), route_name=_LAW,
+        sample=generic, simple=small_points,
+        route=route_at(sign, lambda ctx, point: number(ctx, point[theta])), route_name=_LAW,
     )  # fmt: skip
 
 
@@ -135,7 +135,7 @@ def sheared_residual() -> sp.Expr:
 AT_REST = Meaning(
     name="N = 0, any angles", free=(theta, phi, psi),
     components=_components(sp.Integer(0), theta, phi, psi), positive=(chiral_gap,),
-    sample=_generic, simple=_small_points,
+    sample=generic, simple=small_points,
 )  # fmt: skip
 
 
@@ -146,8 +146,8 @@ def _straight(sign: int, polar: sp.Expr) -> Meaning:
     found = _components(sign * R, polar, phi, twist) | {theta: polar, psi: twist}
     return Meaning(
         name=f"theta = {polar}, N {'>' if sign > 0 else '<'} 0", free=(R, phi, psi0, s),
-        components=found, positive=(chiral_gap,), sample=_generic, simple=_small_states,
-        route=_route_straight(sign) if polar == 0 else None, route_name=_LAW,
+        components=found, positive=(chiral_gap,), sample=generic, simple=small_states,
+        route=route_straight(sign) if polar == 0 else None, route_name=_LAW,
     )  # fmt: skip
 
 
@@ -156,7 +156,7 @@ v3_at_last, last_thrust, v3_slope = sp.symbols("v_3^{0} N^{0} v_3_N", real=True)
 
 def _sample_compressible(seed: int) -> Point:
     """Constants with eta < 1, so that b > 1."""
-    point = {**_generic(seed), eta: sp.Rational(11 + 2 * seed, 19)}
+    point = {**generic(seed), eta: sp.Rational(11 + 2 * seed, 19)}
     return {**point, iota: sp.Rational(2, 5) * point[beta] * point[eta] * (-1) ** seed}
 
 
@@ -179,7 +179,7 @@ LAST_COMPRESSION = Meaning(
         v3_slope: -sp.diff(theory.straight_strain(5, -R), R),
     },
     positive=(chiral_gap, b - 1, b**p - b ** (p / 2)), sample=_sample_compressible,
-    simple=_small_states, route=_route_last,
+    simple=small_states, route=_route_last,
     route_name="root search for v_3 = 0 in the law with K inverted numerically",
 )  # fmt: skip
 
@@ -187,7 +187,7 @@ LAST_COMPRESSION = Meaning(
 FAR = Meaning(
     name="theta = 0, N large", free=(N,),
     components={u3: theory.straight_strain(2), v3: 1 + theory.straight_strain(5)},
-    positive=(chiral_gap,), sample=_generic, simple=_small_states, route=_route_far,
+    positive=(chiral_gap,), sample=generic, simple=small_states, route=route_far,
     route_name="the law with K inverted numerically, N = 1e60 and -1e60",
 )  # fmt: skip
 
@@ -211,7 +211,7 @@ def _branch(sign: int) -> Meaning:
         components=found, functions=_f(thrust),
         positive=(*BRANCH_EXISTS, sp.cos(angle), sp.sin(angle), 1 - sp.cos(angle),
                   theory.dual_form(sp.Integer(1), angle), power),
-        sample=_on_the_branch, simple=_small_states,
+        sample=on_the_branch, simple=small_states,
         route=route_on_branch if sign > 0 else None,
         route_name="N by a root search on the moment balance; " + _LAW,
     )  # fmt: skip
@@ -222,7 +222,7 @@ BRANCH, MIRRORED_BRANCH = _branch(1), _branch(-1)
 BRANCH_FROM_ZERO = Meaning(
     name="sheared states near theta = 0", free=(theta,),
     components={N: theory.thrust_near_zero(theta), N_thresh: theory.threshold()},
-    positive=BRANCH_EXISTS, sample=_on_the_branch, simple=_small_states,
+    positive=BRANCH_EXISTS, sample=on_the_branch, simple=small_states,
     route=lambda point, ctx: {
         LimitOf(N, theta, sp.Integer(0)): thrust_at(point, ctx.mpf(10) ** -40, ctx)
     },
@@ -242,9 +242,9 @@ SHEARED = Meaning(
         N: tension / sp.cos(theta),
     },
     positive=(chiral_gap, a / c, 1 / (c * tension), sp.sin(theta)),
-    sample=lambda seed: {**_on_the_branch(seed), tension: sp.Rational(7 + 5 * seed, 11),
+    sample=lambda seed: {**on_the_branch(seed), tension: sp.Rational(7 + 5 * seed, 11),
                          theta: sp.Rational((4, 30, 10)[seed % 3], 13)},
-    simple=_small_states,
+    simple=small_states,
 )  # fmt: skip
 
 #: f_N for N > 0, whatever the moduli. w(x) > 0 on the closed interval, so that an identity (or a
@@ -252,13 +252,13 @@ SHEARED = Meaning(
 ON_COSINES = Meaning(
     name="all N > 0 and x in [0, 1]", free=(N, x), functions=_f(N),
     positive=(chiral_gap, N, theory.weight(x)),
-    sample=_generic, simple=_small_points, route=_route_f,
+    sample=generic, simple=small_points, route=route_f,
     route_name="the law with K inverted numerically, numerical derivative, N = 1e60",
 )  # fmt: skip
 SOFT_COSINES = Meaning(
     name="all N > 0 and x in [0, 1], under condition 1", free=(N, x), functions=_f(N),
     positive=(*SOFTER_IN_SHEAR, N, theory.weight(x)),
-    sample=_on_the_branch, simple=_small_points, route=_route_f,
+    sample=on_the_branch, simple=small_points, route=route_f,
     route_name=ON_COSINES.route_name,
 )  # fmt: skip
 
@@ -266,8 +266,8 @@ SOFT_COSINES = Meaning(
 def _route_beyond(sign: int) -> Callable[[Point, Any], Values]:
     def route(point: Point, ctx: Any) -> Values:
         threshold = thrust_at(point, ctx.mpf(10) ** -40, ctx)  # the angle enters squared
-        power = threshold ** -_number(ctx, point[p]) - sign * _number(ctx, point[delta])
-        thrust = power ** (-1 / _number(ctx, point[p]))
+        power = threshold ** -number(ctx, point[p]) - sign * number(ctx, point[delta])
+        thrust = power ** (-1 / number(ctx, point[p]))
         value = strains_at(point, [0] * 5 + [thrust], ctx)[5]
         return {N: thrust, fN(sp.Integer(1)): value}
 
@@ -281,8 +281,8 @@ def _beyond(sign: int) -> Meaning:
     thrust = power ** (-1 / p)
     return Meaning(
         name=f"N {'>' if sign > 0 else '<'} N_thresh", free=(delta,), components={N: thrust},
-        functions=_f(thrust), positive=(*BRANCH_EXISTS, power, held), sample=_above,
-        simple=_small_states, route=_route_beyond(sign),
+        functions=_f(thrust), positive=(*BRANCH_EXISTS, power, held), sample=above,
+        simple=small_states, route=_route_beyond(sign),
         route_name="f_N(1) from the law with K inverted numerically",
     )  # fmt: skip
 
@@ -299,6 +299,6 @@ AT_INFINITY = Meaning(
     name="the limit N -> oo on the branch", free=(),
     components={x: theory.limiting_cosine(), theta_hat_infinity: sp.acos(theory.limiting_cosine())},
     functions=_f(N), positive=(*BRANCH_EXISTS, theory.limiting_cosine()),
-    sample=_on_the_branch, simple=_small_limits, route=_route_at_infinity,
+    sample=on_the_branch, simple=small_limits, route=_route_at_infinity,
     route_name="angle by a root search on the moment balance at N = 1e60",
 )  # fmt: skip

@@ -15,7 +15,7 @@ from rodproof.derivations.checks.equilibrium import (
 )  # fmt: skip
 from rodproof.derivations.checks.thrust import domains, numeric, points
 from rodproof.derivations.checks.thrust.states import REJECTED, worst_of
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import context, numbers
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Either, Every, Iff, Implies, Prime, instances
 from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point
@@ -140,7 +140,7 @@ def _numeric(part: int) -> Callable[[Point, Any], Any]:
     """u . e_1, u . e_2, u . e_3 - u_3 (part 0, 1, 2) or (r' x N g_3) . e_2 (part 3), as numbers."""
 
     def route(point: Point, ctx: Any) -> Any:
-        c = {k: ctx.mpf(int(q.p)) / int(q.q) for k, q in point.items()}
+        c = numbers(ctx, point)
         along = [(c[a], c[euler.RATES[a]]) for a in (phi, theta, psi)]
 
         def directors(at: Any) -> list[list[Any]]:

@@ -7,7 +7,7 @@ from typing import Any
 
 import sympy as sp
 
-from rodproof.derivations.checks.domains import _Numbers
+from rodproof.derivations.checks.domains import NumericLaw
 from rodproof.derivations.checks.thrust.points import (
     N_thresh,
     R,
@@ -20,6 +20,7 @@ from rodproof.derivations.checks.thrust.points import (
     x_N,
     x_Nk,
 )
+from rodproof.derivations.exact.evaluate import number
 from rodproof.derivations.notation import LimitOf
 from rodproof.derivations.proof.meaning import Point, Values
 from rodproof.derivations.symbols import (
@@ -36,7 +37,7 @@ from rodproof.derivations.theory.thrust import N, s, x
 
 def strains_at(point: Mapping[sp.Symbol, Any], load: list[Any], ctx: Any) -> list[Any]:
     """The law as it stands, with K inverted numerically: (1 + Q*^{p/2})^{-1/p} K^{-1} sigma."""
-    return _Numbers(point, ctx).under(load)
+    return NumericLaw(point, ctx).under(load)
 
 
 class NoShearedState(ValueError):
@@ -48,33 +49,31 @@ def thrust_at(point: Mapping[sp.Symbol, Any], polar: Any, ctx: Any) -> Any:
 
     Raises NoShearedState where r' x n keeps one sign.
     """
-    law, sine, cosine = _Numbers(point, ctx), ctx.sin(polar), ctx.cos(polar)
+    law = NumericLaw(point, ctx)
 
-    def off_axis(log_thrust: Any) -> Any:
-        force = ctx.exp(log_thrust)
-        strain = law.under([0, 0, 0, -force * sine, 0, force * cosine])
-        return strain[3] * cosine + (1 + strain[5]) * sine
+    def at(log_thrust: Any) -> Any:
+        return off_axis(law, ctx.exp(log_thrust), polar)
 
     low, high = ctx.mpf(-20), ctx.mpf(60)
-    if not off_axis(low) * off_axis(high) < 0:
+    if not at(low) * at(high) < 0:
         raise NoShearedState("no sheared state at this angle")
     while high - low > 1:
         middle = (low + high) / 2
-        low, high = (middle, high) if off_axis(low) * off_axis(middle) > 0 else (low, middle)
-    return ctx.exp(ctx.findroot(off_axis, (low, high), solver="anderson"))
+        low, high = (middle, high) if at(low) * at(middle) > 0 else (low, middle)
+    return ctx.exp(ctx.findroot(at, (low, high), solver="anderson"))
+
+
+def off_axis(law: NumericLaw, thrust: Any, polar: Any) -> Any:
+    """The part of r' across g_3 over sin(theta), under N g_3 at an angle of d_3."""
+    sine, cosine = law.ctx.sin(polar), law.ctx.cos(polar)
+    strain = law.under([0, 0, 0, -thrust * sine, 0, thrust * cosine])
+    return strain[3] * cosine / sine + 1 + strain[5]
 
 
 def cosine_at(point: Point, thrust: Any, ctx: Any) -> Any:
     """cos theta of the sheared state under a given thrust, by a root search in the angle."""
-    law = _Numbers(point, ctx)
-
-    def off_axis(polar: Any) -> Any:
-        load = [0, 0, 0, -thrust * ctx.sin(polar), 0, thrust * ctx.cos(polar)]
-        strain = law.under(load)
-        return strain[3] * ctx.cos(polar) / ctx.sin(polar) + 1 + strain[5]
-
-    found = ctx.findroot(off_axis, (ctx.mpf(10) ** -10, ctx.pi / 2), solver="anderson")
-    return ctx.cos(found)
+    law, ends = NumericLaw(point, ctx), (ctx.mpf(10) ** -10, ctx.pi / 2)
+    return ctx.cos(ctx.findroot(lambda at: off_axis(law, thrust, at), ends, solver="anderson"))
 
 
 def turned(ctx: Any, azimuth: Any, polar: Any, twist: Any) -> list[list[Any]]:
@@ -109,23 +108,23 @@ def _state_numbers(point: Point, ctx: Any, thrust: Any, angles: tuple[Any, Any, 
     return found
 
 
-def _number(ctx: Any, value: sp.Rational) -> Any:
-    return ctx.mpf(int(value.p)) / int(value.q)
+def route_at(sign: int, polar: Callable[[Any, Point], Any]) -> Callable[[Point, Any], Values]:
+    """The state under the thrust of this sign at the point's angles, theta from ``polar``."""
 
-
-def _route_at(sign: int, polar: Callable[[Any, Point], Any]) -> Callable[[Point, Any], Values]:
     def route(point: Point, ctx: Any) -> Values:
-        angles = (_number(ctx, point[phi]), polar(ctx, point), _number(ctx, point[psi]))
-        return _state_numbers(point, ctx, sign * _number(ctx, point[R]), angles)
+        angles = (number(ctx, point[phi]), polar(ctx, point), number(ctx, point[psi]))
+        return _state_numbers(point, ctx, sign * number(ctx, point[R]), angles)
 
     return route
 
 
-def _route_straight(sign: int) -> Callable[[Point, Any], Values]:
+def route_straight(sign: int) -> Callable[[Point, Any], Values]:
+    """The straight state under the thrust of this sign, turned by its own twist."""
+
     def route(point: Point, ctx: Any) -> Values:
-        thrust, azimuth = sign * _number(ctx, point[R]), _number(ctx, point[phi])
+        thrust, azimuth = sign * number(ctx, point[R]), number(ctx, point[phi])
         twist = strains_at(point, [0] * 5 + [thrust], ctx)[2]
-        psi_of_s = twist * _number(ctx, point[s]) + _number(ctx, point[psi0]) - azimuth
+        psi_of_s = twist * number(ctx, point[s]) + number(ctx, point[psi0]) - azimuth
         return _state_numbers(point, ctx, thrust, (azimuth, ctx.mpf(0), psi_of_s))
 
     return route
@@ -133,12 +132,12 @@ def _route_straight(sign: int) -> Callable[[Point, Any], Values]:
 
 def route_on_branch(point: Point, ctx: Any) -> Values:
     """N by the root search; the strains, the frame and r' from the numerical law."""
-    polar = _number(ctx, point[angle])
+    polar = number(ctx, point[angle])
     thrust = thrust_at(point, polar, ctx)
     twist = strains_at(
         point, [0] * 3 + [-thrust * ctx.sin(polar), 0, thrust * ctx.cos(polar)], ctx
     )[2]
-    psi_of_s = twist * _number(ctx, point[s]) + _number(ctx, point[psi0])
+    psi_of_s = twist * number(ctx, point[s]) + number(ctx, point[psi0])
     found = dict(_state_numbers(point, ctx, thrust, (ctx.mpf(0), polar, psi_of_s)))
     return found | {x_N: ctx.cos(polar), theta: polar, theta_hat: polar, theta_Nk: polar,
                     x_Nk: ctx.cos(polar), fN(sp.cos(theta)): found[v3] - 1,
@@ -146,14 +145,14 @@ def route_on_branch(point: Point, ctx: Any) -> Values:
                     N_thresh: thrust_at(point, ctx.mpf(10) ** -25, ctx)}  # fmt: skip
 
 
-def _route_f(point: Point, ctx: Any) -> Values:
+def route_f(point: Point, ctx: Any) -> Values:
     """f_N(x) from the numerical law, its slope by a numerical derivative, its limit far away."""
 
     def value(at: Any, thrust: Any) -> Any:
         load = [0, 0, 0, thrust * ctx.sqrt(1 - at**2), 0, thrust * at]
         return strains_at(point, load, ctx)[5].real
 
-    at, thrust = _number(ctx, point[x]), _number(ctx, point[N])
+    at, thrust = number(ctx, point[x]), number(ctx, point[N])
     far = ctx.mpf(10) ** 60
     return {
         fN(x): value(at, thrust),
@@ -164,7 +163,7 @@ def _route_f(point: Point, ctx: Any) -> Values:
     }
 
 
-def _route_far(point: Point, ctx: Any) -> Values:
+def route_far(point: Point, ctx: Any) -> Values:
     """The straight strains under thrusts of 10^60 and -10^60."""
     found: dict[sp.Basic, Any] = {}
     for sign, target in ((1, sp.oo), (-1, -sp.oo)):

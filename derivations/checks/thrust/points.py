@@ -77,7 +77,7 @@ def sheared_constants(seed: int) -> Point:
     return dict(_sheared_constants(seed))
 
 
-def _generic(seed: int) -> dict[sp.Symbol, sp.Rational]:
+def generic(seed: int) -> dict[sp.Symbol, sp.Rational]:
     """Generic constants and thrusts, with everything that a state may depend on."""
     point = {**sampling.constants(seed), gamma: sp.Integer(1)}
     more = {
@@ -96,17 +96,17 @@ def _generic(seed: int) -> dict[sp.Symbol, sp.Rational]:
     return point | {k: sp.Rational(v[seed % 3], 19) for k, v in more.items()}
 
 
-def _on_the_branch(seed: int) -> dict[sp.Symbol, sp.Rational]:
+def on_the_branch(seed: int) -> dict[sp.Symbol, sp.Rational]:
     """Generic constants that meet the conditions, and an angle below the limiting one."""
     point = sheared_constants(seed)
     limit = math.acos(float(theory.limiting_cosine().subs(point)))
     chosen = sp.Rational(int(997 * limit * (0.45 + 0.2 * (seed % 3))), 997)
-    return {**_generic(seed), **point, angle: chosen, x: sp.Rational(13 + 2 * seed, 19)}
+    return {**generic(seed), **point, angle: chosen, x: sp.Rational(13 + 2 * seed, 19)}
 
 
-def _above(seed: int) -> dict[sp.Symbol, sp.Rational]:
+def above(seed: int) -> dict[sp.Symbol, sp.Rational]:
     """The distance of N^{-p} from its threshold, as a rational part of the latter."""
-    point = _on_the_branch(seed)
+    point = on_the_branch(seed)
     whole = float(theory.threshold_power().subs(point))
     return {**point, delta: sp.Rational(int(whole * 1e9 * (0.2 + 0.25 * (seed % 3))), 10**9)}
 
@@ -120,7 +120,8 @@ def _small(**others: object) -> tuple[Point, ...]:
     return tuple({**dict(zip(keys, map(sp.Integer, row), strict=True)), **given} for row in rows)
 
 
-def _small_points() -> tuple[Point, ...]:
+def small_points() -> tuple[Point, ...]:
+    """Small points at any angle, for three thrusts."""
     angles = {"theta": sp.pi / 6, "varphi": 0, "psi": 0, r"{\psi}(0)": 0, "s": 0}
     return (
         *_small(R=2, N=2, x=1, **angles),
@@ -129,7 +130,8 @@ def _small_points() -> tuple[Point, ...]:
     )
 
 
-def _small_states() -> tuple[Point, ...]:
+def small_states() -> tuple[Point, ...]:
+    """Small points at a sheared angle, and one rod that is compressed to nothing."""
     angles = {"theta": sp.pi / 6, "varphi": 0, "psi": 0, r"{\psi}(0)": 0, "s": 0}
     rows = _small(R="3/4", x=1, vartheta=sp.pi / 6, **angles)
     # b = 4, R = 2 sends v_3 = 1 - b F R below zero: p = 1 and beta^2 eta^2 - iota^2 = 1/4
@@ -139,7 +141,7 @@ def _small_states() -> tuple[Point, ...]:
     return (*rows, extra)
 
 
-def _small_limits() -> tuple[Point, ...]:
+def small_limits() -> tuple[Point, ...]:
     """b = 2/75, a = 9/25, c = 1/3, so that the limiting cosine is 9/10; beta = 2 and beta = 1."""
     return tuple(
         {beta: sp.Integer(k), eta: sp.Rational(49, 8), zeta: sp.Rational(5, 3),

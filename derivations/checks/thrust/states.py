@@ -14,7 +14,7 @@ from rodproof.derivations.checks.equilibrium import (
     frame,
 )  # fmt: skip
 from rodproof.derivations.checks.thrust import domains, points
-from rodproof.derivations.exact.evaluate import context
+from rodproof.derivations.exact.evaluate import context, number
 from rodproof.derivations.notation import Chain, Every, Implies, instances
 from rodproof.derivations.proof.meaning import Meaning, Point
 from rodproof.derivations.proof.prover import (
@@ -173,9 +173,7 @@ def _balance(state: Meaning, claim: sp.Basic) -> float:
     misses = [found.force_slope, found.couple_slope, *(abs(e) for m in found.couples for e in m)]
     (force,), ((u, v),) = found.forces, found.strains
     misses += [abs(f - g) for f, g in zip(force, (0, 0, values[N]), strict=True)]
-    stated = curve([parts[u3], parts[v1], parts[v2], parts[v3]], s, values, ctx)(
-        ctx.mpf(int(at.p)) / int(at.q)
-    )
+    stated = curve([parts[u3], parts[v1], parts[v2], parts[v3]], s, values, ctx)(number(ctx, at))
     misses += [abs(a - b) for a, b in zip((*u, *v), (0, 0, *stated), strict=True)]
     return float(max(misses))
 
