@@ -18,9 +18,6 @@ class WorkShare(sp.Function):
 
     nargs = 2
 
-    def _eval_rewrite_as_hyper(self, depth: sp.Expr, p: sp.Expr, **_: object) -> sp.Expr:
-        return sp.hyper((1, 1 / p), (1 + 2 / p,), 1 - sp.exp(depth)) / 2
-
     def fdiff(self, argindex: int = 1) -> sp.Expr:
         """d/d depth, from the definition by the product rule; not differentiated by p."""
         if argindex != 1:

@@ -20,8 +20,6 @@ of the contact couple m (force x length) and the contact force n (force).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 alpha, beta, gamma, zeta, eta, p = sp.symbols("alpha beta gamma zeta eta p", positive=True)
@@ -34,29 +32,6 @@ CONSTANTS: tuple[sp.Symbol, ...] = (alpha, beta, gamma, zeta, eta, iota, p)
 STRAINS: tuple[sp.Symbol, ...] = (u1, u2, u3, v1, v2, v3)
 LOADS: tuple[sp.Symbol, ...] = (m1, m2, m3, n1, n2, n3)
 
-#: beta^2 eta^2 - iota^2, the determinant of the twist-dilatation block; positive by hypothesis.
+#: beta^2 eta^2 - iota^2, the determinant of the twist-dilatation block; positive by hypothesis. The
+#: paper prints alpha^2 beta^2 - iota^2 > 0 in its place (statement ``constants-hypothesis``).
 chiral_gap: sp.Expr = beta**2 * eta**2 - iota**2
-
-
-@dataclass(frozen=True)
-class Hypothesis:
-    """An inequality on the constants: ``expression > 0``, and the sentence for a user."""
-
-    name: str
-    expression: sp.Expr
-    sentence: str
-
-
-#: What the constants must satisfy. The coupling condition is the derived one; the paper prints
-#: alpha^2 beta^2 - iota^2 > 0 in its place (statement ``constants-hypothesis``).
-HYPOTHESES: tuple[Hypothesis, ...] = (
-    *(
-        Hypothesis(f"{c} > 0", c, f"{c} must be positive")
-        for c in (alpha, beta, gamma, zeta, eta, p)
-    ),
-    Hypothesis(
-        "beta^2 eta^2 - iota^2 > 0",
-        chiral_gap,
-        "|iota| must be smaller than beta*eta, or the energy has no minimum at rest",
-    ),
-)

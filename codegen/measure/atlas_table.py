@@ -104,7 +104,7 @@ def story(look: Look) -> list[tuple[str, str]]:
         exact = [look.truth.value[k] for k in at]
         shift = look.truth.part == "strains" and 5 in one.strains
         exact = [*exact[:-1], exact[-1] + 1] if shift else exact
-        rows += [("truth", _numbers([entry.str(20, radius=False) for entry in exact]))]
+        rows += [("truth", ", ".join(entry.str(20, radius=False) for entry in exact))]
     rows += [("generated", _answer(look.ours))]
     rows += [("textbook", _answer(look.textbook))] if spot.precision == "float64" else []
     if look.truth is not None and look.truth.representable:
@@ -130,8 +130,4 @@ def _mark(mark: Mark) -> str:
 def _answer(answer: Answer) -> str:
     if answer is None:
         return "refused or failed"
-    return _numbers([repr(float(entry)) for entry in answer])
-
-
-def _numbers(words: list[str]) -> str:
-    return ", ".join(words)
+    return ", ".join(repr(float(entry)) for entry in answer)

@@ -7,7 +7,6 @@ import sympy as sp
 from rodproof.derivations.checks.routes import states
 from rodproof.derivations.checks.thrust import domains, points
 from rodproof.derivations.checks.thrust.branch import (
-    ClosedAngle,
     NearThreshold,
     OnTheBranch,
     SharpPowers,
@@ -57,17 +56,13 @@ def statements() -> tuple[Statement, ...]:
     )
 
 
-def _limiting(left: sp.Expr) -> ClosedAngle:
-    return limiting_angle(left)
-
-
 def _angles() -> tuple[Statement, ...]:
     limit = LimitOf(points.theta_hat, N, sp.oo)
     return (
         terms.statement(
             "theta-limit", "Limit of the shear angle for infinite thrust.",
             rf"\lim_{{N \to \infty}} \hat\theta(N) = {terms.LIMIT_TEX}",
-            equal(limit, sp.acos(terms.X / zeta)), _limiting(limit), label="eq:thetainfinity",
+            equal(limit, sp.acos(terms.X / zeta)), limiting_angle(limit), label="eq:thetainfinity",
         ),
         terms.statement(
             "theta-p2", "Shear angle in closed form for p = 2.",
@@ -171,8 +166,9 @@ def _roots_and_limits() -> tuple[Statement, ...]:
         terms.statement(
             "theta-infinity-definition", "Definition of the limiting angle.",
             rf"\theta(\infty) = {terms.LIMIT_TEX}",
-            equal(points.theta_infinity, sp.acos(terms.X / zeta)), _limiting(points.theta_infinity),
-            introduces=True, note="Later written with a hat.",
+            equal(points.theta_infinity, sp.acos(terms.X / zeta)),
+            limiting_angle(points.theta_infinity), introduces=True,
+            note="Later written with a hat.",
         ),
         terms.statement(
             "xNk-definition", "Cosines of the shear angles along a sequence of thrusts.",
@@ -203,7 +199,7 @@ def _roots_and_limits() -> tuple[Statement, ...]:
         terms.statement(
             "theta-subsequence-limit", "The shear angles converge along the subsequence.",
             r"\lim_{j \to \infty} \theta(N_j) = \hat\theta(\infty)",
-            equal(limit, points.theta_hat_infinity), _limiting(limit), reading=hats,
+            equal(limit, points.theta_hat_infinity), limiting_angle(limit), reading=hats,
         ),
         terms.statement(
             "sheared-phi-constant", "On the sheared branch the azimuth is constant.",

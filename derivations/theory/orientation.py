@@ -75,12 +75,3 @@ def infimum(affine: sp.Expr) -> Infimum:
 def flexure_in_direction() -> sp.Expr:
     """u1 cos omega + u2 sin omega, whose largest value over omega is (u1^2 + u2^2)^{1/2}."""
     return sp.cos(bending_angle) * STRAINS[0] + sp.sin(bending_angle) * STRAINS[1]
-
-
-@cache
-def least_determinant() -> Infimum:
-    """inf of det grad chi over the disc and over all strains with Q < 1.
-
-    The least value over the disc is v3 - a max over omega of (u1 cos omega + u2 sin omega).
-    """
-    return infimum(v3 - a * flexure_in_direction())

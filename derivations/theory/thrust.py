@@ -23,16 +23,13 @@ from functools import cache
 
 import sympy as sp
 
-from rodproof.derivations.symbols import CONSTANTS, LOADS, gamma, p
+from rodproof.derivations.symbols import LOADS, p
 from rodproof.derivations.theory import constitutive
 from rodproof.derivations.theory.frames import euler_frame, phi, psi, theta
 
 N = sp.Symbol("N", real=True)
 x = sp.Symbol("x", positive=True)  # cos theta on the branch of sheared states
 s = sp.Symbol("s", real=True)
-
-#: The constants once gamma is the unit of force.
-CONSTANTS_AT_UNIT_FORCE = tuple(c for c in CONSTANTS if c != gamma)
 
 # -- the law under a pure force ---------------------------------------------------------------
 
@@ -188,21 +185,6 @@ def dilatation(thrust: sp.Expr, at: sp.Expr = x) -> sp.Expr:
     """f_N(x): v_3 - 1 under a thrust N > 0 if cos theta = x, balanced or not."""
     factor = (1 + (thrust**2 * weight(at)) ** (p / 2)) ** (-1 / p)
     return factor * axial_compliance() * thrust * at
-
-
-def dilatation_limit(at: sp.Expr = x) -> sp.Expr:
-    """Its limit as N -> oo: the 1 is lost against N^p w^{p/2}."""
-    return weight(at) ** sp.Rational(-1, 2) * axial_compliance() * at
-
-
-def curvature_at_threshold() -> sp.Expr:
-    """lim (N - N_thresh)/theta^2 at the threshold.
-
-    N^{-p} = P(x) with x = 1 - theta^2/2 + ..., so -p N_thresh^{-p-1} (N - N_thresh) =
-    -P'(1) theta^2/2 to leading order.
-    """
-    slope = sp.diff(inverse_thrust_power(), x).subs(x, 1)
-    return slope * threshold() ** (p + 1) / (2 * p)
 
 
 # -- straight states --------------------------------------------------------------------------

@@ -12,12 +12,12 @@ import sympy as sp
 from rodproof.derivations.checks.thrust import domains, numeric, points
 from rodproof.derivations.checks.thrust.moduli import (
     a,
+    at_generic_point,
     at_point,
     b,
     c,
     certified,
     is_positive,
-    numbers,
     sides_of,
 )
 from rodproof.derivations.checks.thrust.states import REJECTED, InAllStates
@@ -114,7 +114,7 @@ class NearThreshold:
         value = domains.BRANCH.interpret(right)
         start, slope, wanted = taylor_of_thrust()
         for seed in range(POINTS):
-            evaluate = numbers(domains.BRANCH, seed)
+            evaluate = at_generic_point(domains.BRANCH, seed)
             if not abs(evaluate(value) - evaluate(wanted)) < 1e-30:
                 return Decision(False, False, "not the second derivative")
         field = Field(points.BRANCH_EXISTS)
@@ -159,7 +159,7 @@ class SharpPowers:
                 if not (found.holds and found.exact):
                     return found
                 continue
-            values = [numbers(self.meaning, k) for k in range(POINTS)]
+            values = [at_generic_point(self.meaning, k) for k in range(POINTS)]
             if not all(is_positive(e(right) - e(left)) for e in values):
                 return Decision(False, False, "fails at a generic point")
             if small == 0:

@@ -90,7 +90,7 @@ def at_point(point: tuple[tuple[sp.Symbol, sp.Rational], ...]) -> Evaluator:
 
 
 @cache
-def numbers(meaning: Meaning, seed: int) -> Evaluator:
+def at_generic_point(meaning: Meaning, seed: int) -> Evaluator:
     """The numbers of one generic point of a domain, shared by all broken twins."""
     return meaning.evaluator(context(DIGITS), meaning.sample(seed))
 
