@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from rodproof.codegen import generate
 from rodproof.codegen.count import Cost, cost
@@ -11,6 +13,9 @@ from rodproof.codegen.scene import CONSTANT_NAMES, Scene
 from rodproof.codegen.targets.numpy_constants import used_constants
 from rodproof.codegen.targets.numpy_header import scope
 from rodproof.codegen.texts import function_text, shape_text
+
+if TYPE_CHECKING:
+    from rodproof.codegen.measure.beside import Beside
 
 
 @dataclass(frozen=True)
@@ -73,11 +78,13 @@ COLUMNS = (
     "transcendental",
     "energy shares",
     "temporaries",
+    "ns a point",
 )
 
 
-def table(found: Account) -> list[tuple[str, ...]]:
-    """A row a function; counts of one point as ``own of the full rod's``."""
+def table(found: Account, times: Sequence[Beside]) -> list[tuple[str, ...]]:
+    """A row a function; counts and time of one point as ``own of the full rod's``."""
+    timed = {time.function: f"{time.own:.3g} of {time.full:.3g}" for time in times}
     return [
         (
             line.function,
@@ -91,6 +98,7 @@ def table(found: Account) -> list[tuple[str, ...]]:
                     (line.own.temporaries, line.full.temporaries),
                 )
             ),
+            timed[line.function],
         )
         for line in found.lines
     ]

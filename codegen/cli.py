@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
@@ -19,6 +19,7 @@ import typer
 from rodproof.codegen import show
 
 if TYPE_CHECKING:
+    from rodproof.codegen.scene import Scene
     from rodproof.derivations.records import Evidence
 
 DIFFERENT_VERDICT, USAGE, DIFFERENT_FILES = 1, 2, 3
@@ -186,16 +187,12 @@ def scenes(
     """List the scenes, or say what one needs, what it leaves out and what that saves."""
     from dataclasses import asdict
 
-    from rodproof.codegen import account, scene
+    from rodproof.codegen import scene
 
     with one_sentence():
         found = [scene.committed(name) for name in names or scene.committed_names()]
     if names:
-        accounts = [account.account(entry) for entry in found]
-        if as_json:
-            show.as_json([asdict(entry) for entry in accounts])
-        for entry in () if as_json else accounts:
-            show.table(account.COLUMNS, account.table(entry), "\n".join(account.sentences(entry)))
+        _accounts(found, as_json)
     elif as_json:
         show.as_json([asdict(entry) for entry in found])
     else:
@@ -203,6 +200,27 @@ def scenes(
             ("scene", "functions", "at the limit", "summary"),
             [(s.name, ", ".join(s.functions), s.at_limit, s.summary) for s in found],
         )
+
+
+def _accounts(found: Sequence[Scene], as_json: bool) -> None:
+    """What each scene leaves out and saves: operations counted, time taken here and now."""
+    from dataclasses import asdict
+
+    from rodproof.codegen import account
+    from rodproof.codegen.measure import beside
+
+    rows = []
+    for entry in found:
+        own = account.account(entry)
+        with show.progress(entry.name) as tell:
+            times = beside.beside(entry.name, tell)
+        rows.append(asdict(own) | {"times": beside.data(times)})
+        if not as_json:
+            shown = account.table(own, times), "\n".join(account.sentences(own))
+            show.table(account.COLUMNS, *shown)
+            typer.echo(beside.NOTE)
+    if as_json:
+        show.as_json(rows)
 
 
 @app.command()

@@ -15,6 +15,9 @@ RIVAL = "lambdify cse"
 ENERGIES = ("stored_energy", "complementary_energy")  # by mpmath there: no comparison
 
 
+PICTURES = (".svg", ".png")
+
+
 @dataclass(frozen=True)
 class Row:
     """A stage, what came out of it in words, and the place."""
@@ -36,12 +39,22 @@ def rows(outcome: Outcome, places: Places) -> list[Row]:
         *(Row("generated", path.stem, places.shown(path)) for path in modules),
         *(Row("documented", _document(path), places.shown(path)) for path in outcome.documents),
         *_measured(places, outcome.reports),
+        *_drawn(places, outcome.reports),
     ]
 
 
 def _document(path: Path) -> str:
     """A document's name; that of a site is its folder's."""
     return path.parent.name if path.stem == "index" else path.stem
+
+
+def _drawn(places: Places, reports: tuple[Path, ...]) -> list[Row]:
+    """A row a picture, whatever formats it is in."""
+    files: dict[str, list[str]] = {}
+    for path in reports:
+        if path.suffix in PICTURES:
+            files.setdefault(path.stem, []).append(places.shown(path))
+    return [Row("drawn", stem, " ".join(paths)) for stem, paths in files.items()]
 
 
 def _measured(places: Places, reports: tuple[Path, ...]) -> list[Row]:

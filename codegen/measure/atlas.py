@@ -22,11 +22,12 @@ from rodproof.codegen.files import write_text
 from rodproof.codegen.measure import records
 from rodproof.codegen.measure.errors import RIGHT, Truth, truth
 from rodproof.codegen.measure.extremes import Outcome, outcomes
+from rodproof.codegen.measure.form import Answer, answers
 from rodproof.codegen.measure.inputs import inside
 from rodproof.codegen.measure.records import Machine, finite
-from rodproof.codegen.measure.rivals import Answer, answers, form_of
+from rodproof.codegen.measure.rivals import form_of
 from rodproof.codegen.measure.spots import DTYPES, MAPS, Spot, axes, named, spots
-from rodproof.codegen.measure.store import Store, digest
+from rodproof.codegen.measure.store import Store, digest, kept
 from rodproof.codegen.measure.subjects import Subject, subject, subjects
 from rodproof.derivations import workers
 
@@ -256,7 +257,7 @@ def measure(
     }
     missing = [cell for cell, key in keys.items() if key not in store]
     done = len(keys) - len(missing)
-    tell("", done, len(keys))
+    tell(kept(done), done, len(keys))
     tasks = [workers.Task(".".join(cell), measure_function, (*cell, asked)) for cell in missing]
     for index, (summary, charts) in workers.run(
         tasks, jobs=jobs, scheduler=scheduler, executor=executor

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rodproof.codegen.measure.atlas import BOOK, OURS, Atlas, Look, Mark, Summary
-from rodproof.codegen.measure.rivals import Answer
+from rodproof.codegen.measure.form import Answer
 from rodproof.codegen.measure.spots import Axis, Spot, axes
 from rodproof.codegen.measure.subjects import subject
 from rodproof.codegen.measure.table import number

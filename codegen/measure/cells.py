@@ -1,28 +1,33 @@
 """The cells of a measurement: what is computed, stored and lost in one piece.
 
 An error cell is a scene's function on one kind of input in one precision: the truth at its points
-is computed once, and every form of that precision is held against it. A time cell is a scene's
-function with all its forms side by side, on blocks or on a single point.
+is computed once, and every form of that precision is held against it; the peers, which a worker
+may not have, have cells of their own. A time cell is a scene's function with all its forms side by
+side, on blocks or on a single point.
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from importlib.metadata import version
 
 import numpy as np
 
+from rodproof.codegen.measure import compiled
 from rodproof.codegen.measure.errors import RIGHT, Truth, truth
+from rodproof.codegen.measure.form import Code, Form, answers
 from rodproof.codegen.measure.inputs import Batch, Kind, batches, kinds
-from rodproof.codegen.measure.records import ErrorRow, Settings, TimeRow, finite
-from rodproof.codegen.measure.rivals import Form, all_forms, answers, form_of
+from rodproof.codegen.measure.records import ErrorRow, Missing, Settings, TimeRow, finite
+from rodproof.codegen.measure.rivals import all_forms, form_of
+from rodproof.codegen.measure.store import digest
 from rodproof.codegen.measure.subjects import Subject, subject
 from rodproof.codegen.measure.timing import times
 
 LIBRARIES = ("numpy", "sympy", "mpmath", "python-flint")
+#: Where every form is measured on every function. Elsewhere the peers have the law alone: they
+#: would be compiled for minutes.
+WHOLE = ("full_rod", "full_rod_p2")
+LAW = ("strains", "loads", "stiffness", "loads_and_stiffness")
 
 
 @dataclass(frozen=True)
@@ -37,6 +42,11 @@ class ErrorCell:
     @property
     def name(self) -> str:
         return f"{self.scene}.{self.function}, {self.kind}"
+
+    @property
+    def of_peers(self) -> bool:
+        """Whether it is computed here, where the peers are."""
+        return any(form_of(form).needs for form in self.forms)
 
 
 @dataclass(frozen=True)
@@ -60,15 +70,34 @@ Cell = ErrorCell | TimeCell
 def key(cell: Cell, settings: Settings) -> str:
     """All that decides the cell's result: what is asked, the module's text, the libraries."""
     what = {"kind": type(cell).__name__} | asdict(cell)
-    versions = [version(library) for library in LIBRARIES]
-    parts = [what, asdict(settings), subject(cell.scene).digest, versions]
-    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+    one = subject(cell.scene)
+    needs = [need for form in cell.forms for need in form_of(form).needs]
+    versions = [compiled.version(library) for library in LIBRARIES]
+    peers = compiled.versions(Code(one, cell.function), needs)
+    return digest(what, asdict(settings), one.digest, versions, peers)
 
 
-def chosen(forms: Sequence[Form], scene: str, settings: Settings) -> tuple[Form, ...]:
-    """The forms that a scene is measured with: in a hurry the full rod alone with all of them."""
-    whole = not settings.quick or scene == "full_rod"
-    return tuple(form for form in forms if whole or form.quick)
+def chosen(scene: str, function: str, settings: Settings) -> tuple[Form, ...]:
+    """The forms that a function is measured with, of those that are here.
+
+    In a hurry without the peers, and the full rod alone with all the others.
+    """
+    code = Code(subject(scene), function)
+    return tuple(form for form in all_forms() if _wanted(form, code, settings))
+
+
+def _wanted(form: Form, code: Code, settings: Settings) -> bool:
+    scene = code.subject.name
+    if not form.needs:
+        return form.quick or not settings.quick or scene == "full_rod"
+    asked = not settings.quick and (scene in WHOLE or code.function in LAW)
+    return asked and form.can(code) and compiled.missing(form) is None
+
+
+def missing(settings: Settings) -> tuple[Missing, ...]:
+    """The forms that were asked for and are not here."""
+    found = ((form.name, compiled.missing(form)) for form in all_forms() if not settings.quick)
+    return tuple(Missing(name, "", why) for name, why in found if why)
 
 
 def error_cells(subjects: Sequence[Subject], settings: Settings) -> list[ErrorCell]:
@@ -77,7 +106,7 @@ def error_cells(subjects: Sequence[Subject], settings: Settings) -> list[ErrorCe
         ErrorCell(one.name, function, tuple(names), kind)
         for one in subjects
         for function in one.functions
-        for names in _by_precision(chosen(all_forms(), one.name, settings))
+        for names in _groups(chosen(one.name, function, settings))
         for kind in kinds(one)
     ]
 
@@ -88,7 +117,7 @@ def time_cells(subjects: Sequence[Subject], settings: Settings) -> list[TimeCell
         TimeCell(
             one.name,
             function,
-            tuple(form.name for form in chosen(all_forms(), one.name, settings)),
+            tuple(form.name for form in chosen(one.name, function, settings)),
             points,
         )
         for one in subjects
@@ -97,14 +126,15 @@ def time_cells(subjects: Sequence[Subject], settings: Settings) -> list[TimeCell
     ]
 
 
-def _by_precision(forms: Sequence[Form]) -> list[list[str]]:
-    found: dict[type[np.floating], list[str]] = {}
+def _groups(forms: Sequence[Form]) -> list[list[str]]:
+    """By precision, the peers apart."""
+    found: dict[tuple[type[np.floating], bool], list[str]] = {}
     for form in forms:
-        found.setdefault(form.dtype, []).append(form.name)
+        found.setdefault((form.dtype, bool(form.needs)), []).append(form.name)
     return list(found.values())
 
 
-def measure_errors(cell: ErrorCell, settings: Settings) -> list[ErrorRow]:
+def measure_errors(cell: ErrorCell, settings: Settings) -> list[ErrorRow | Missing]:
     """A row per form of the cell."""
     one, forms = subject(cell.scene), [form_of(name) for name in cell.forms]
     dtype = forms[0].dtype
@@ -116,7 +146,18 @@ def measure_errors(cell: ErrorCell, settings: Settings) -> list[ErrorRow]:
         for batch in drawn
     ]
     with np.errstate(all="ignore"):  # what the rivals do wrong is counted, not warned about
-        return [_row(cell, form, drawn, truths) for form in forms]
+        return [_row_or_why(cell, form, drawn, truths) for form in forms]
+
+
+def _row_or_why(
+    cell: ErrorCell, form: Form, drawn: Sequence[Batch], truths: Sequence[Sequence[Truth]]
+) -> ErrorRow | Missing:
+    try:
+        return _row(cell, form, drawn, truths)
+    except Exception as error:  # whatever a peer fails with, the others go on
+        if not form.needs:
+            raise
+        return Missing(form.name, f"{cell.scene}.{cell.function}", compiled.sentence(error))
 
 
 def _row(

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from rodproof.codegen.measure.errors import RIGHT, truth
+from rodproof.codegen.measure.form import answers
 from rodproof.codegen.measure.inputs import Batch, inside
-from rodproof.codegen.measure.rivals import answers, form_of
+from rodproof.codegen.measure.rivals import form_of
 from rodproof.codegen.measure.subjects import subject
 
 #: Unit moduli without coupling: x and y are plain lengths.

@@ -66,7 +66,11 @@ def front(found: list[Mark]) -> list[Mark]:
     return best
 
 
-def winner(found: list[Mark], wanted: float) -> Mark | None:
-    """The cheapest form whose worst error is at most ``wanted``; None if there is none."""
+def winner(found: list[Mark], wanted: float, *, plain: bool = False) -> Mark | None:
+    """The cheapest form whose worst error is at most ``wanted``; None if there is none.
+
+    plain: of those that need no compiler and no other library.
+    """
     good = [mark for mark in found if mark.worst <= wanted]
+    good = [mark for mark in good if not plain or not form_of(mark.form).needs]
     return min(good, key=lambda mark: mark.time, default=None)

@@ -9,22 +9,25 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from rodproof.codegen.measure.form import NotHere
+
 SOURCE = Path(__file__).with_name("peer_kernel.c")
 FLAGS = ("-O3", "-march=native", "-ffast-math", "-fopenmp-simd", "-fPIC")
 #: The kernel's POWER: p = 2, powers by exp and log, powers by pow.
 SQUARE, EXP_LOG, POW = 0, 1, 2
 
 
-def compiler() -> str | None:
-    """The C compiler, if there is one."""
-    return next(filter(None, map(shutil.which, ("gcc", "cc", "clang"))), None)
+def compiler(*, plus: bool = False) -> str | None:
+    """The C compiler, or that of C++, if there is one."""
+    names = ("g++", "c++", "clang++") if plus else ("gcc", "cc", "clang")
+    return next(filter(None, map(shutil.which, names)), None)
 
 
 def build(power: int, folder: Path) -> ctypes.CDLL:
-    """The kernel as a library in the folder; a ValueError says what the compiler answered."""
+    """The kernel as a library in the folder; NotHere says what the compiler answered."""
     part, target, found = folder / f"{power}.o", folder / f"kernel_{power}.so", compiler()
     if found is None:
-        raise ValueError("no C compiler (gcc, cc, clang)")
+        raise NotHere("no C compiler (gcc, cc, clang)")
     # Linked without -ffast-math, with which gcc makes loading flush the process's subnormals.
     for command in (
         [found, *FLAGS, "-c", f"-DPOWER={power}", str(SOURCE), "-o", str(part)],
@@ -32,7 +35,7 @@ def build(power: int, folder: Path) -> ctypes.CDLL:
     ):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
-            raise ValueError(f"{found}: {(done.stderr.splitlines() or ['failed'])[0]}")
+            raise NotHere(f"{found}: {(done.stderr.splitlines() or ['failed'])[0]}")
     return ctypes.CDLL(str(target))
 
 

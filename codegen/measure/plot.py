@@ -17,6 +17,7 @@ from rodproof.codegen.measure.records import Measurement
 #: Errors outside are drawn on the edge: below lies what a double cannot show, above no number.
 LEAST, MOST = 1e-3, 1e17
 COLUMNS = 3
+NAMES = 8  # in a row of the legend
 
 STYLES: dict[str, tuple[str, str]] = {
     "stable float64": ("#c1272d", "o"),
@@ -27,6 +28,14 @@ STYLES: dict[str, tuple[str, str]] = {
     "mpmath 15": ("#b8a3d0", "D"),
     "mpmath 30": ("#8e6bb5", "D"),
     "mpmath 50": ("#5b3a86", "D"),
+    "C": ("#2e7d32", "P"),
+    "C exp/log": ("#7cb342", "P"),
+    "stable numba": ("#c1272d", "*"),
+    "numba cse": ("#1b998b", "X"),
+    "numexpr": ("#a9825a", "<"),
+    "jax": ("#d68910", ">"),
+    "casadi": ("#7b5e3b", "p"),
+    "symforce": ("#d15b9a", "h"),
 }
 SETTINGS: Any = {
     "svg.hashsalt": "rodproof",
@@ -42,12 +51,13 @@ def draw(measurement: Measurement, scene: str, folder: Path) -> list[Path]:
     """Write ``front-SCENE.svg``."""
     functions = measurement.functions(scene)
     height = -(-len(functions) // COLUMNS)
+    low = 0.67 + 0.18 * -(-len(measurement.forms) // NAMES)  # inches below the panels
     with matplotlib.rc_context(SETTINGS):
-        tall = 1.5 + 2.9 * height
+        tall = low + 0.65 + 2.9 * height
         figure = Figure(figsize=(10.5, tall))
         grid = figure.subplots(height, COLUMNS, sharex=True, sharey=True, squeeze=False)
         figure.subplots_adjust(
-            left=0.08, right=0.99, bottom=0.85 / tall, top=1 - 0.9 / tall, wspace=0.06, hspace=0.22
+            left=0.08, right=0.99, bottom=low / tall, top=1 - 0.9 / tall, wspace=0.06, hspace=0.22
         )
         for panel in grid.flat[len(functions) :]:
             panel.set_visible(False)
@@ -61,8 +71,14 @@ def draw(measurement: Measurement, scene: str, folder: Path) -> list[Path]:
         for panel in grid.flat[max(0, len(functions) - COLUMNS) : len(functions)]:
             panel.set_xlabel("time per point, ns")
             panel.tick_params(labelbottom=True)
-        handles, labels = grid[0, 0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="lower center", ncols=8, frameon=False)
+        known: dict[str, Any] = {}
+        for panel in grid.flat:
+            handles, labels = panel.get_legend_handles_labels()
+            known |= dict(zip(labels, handles, strict=True))
+        names = [form for form in measurement.forms if form in known]
+        figure.legend(
+            [known[name] for name in names], names, loc="lower center", ncols=NAMES, frameon=False
+        )
         figure.suptitle(_title(measurement, scene))
         figure.supylabel("worst error, ulps of a double")
         return [_saved(figure, folder / f"front-{scene}.svg")]

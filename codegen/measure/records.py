@@ -16,6 +16,8 @@ from typing import Any, TypeVar
 from rodproof.codegen.files import write_text
 
 Row = TypeVar("Row")
+#: The table of a file from before there was one of that name.
+NONE: dict[str, Any] = {"columns": [], "rows": []}
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,15 @@ class TimeRow:
 
 
 @dataclass(frozen=True)
+class Missing:
+    """A form that could not be had, where (everywhere if that is empty), and why."""
+
+    form: str
+    where: str
+    why: str
+
+
+@dataclass(frozen=True)
 class Measurement:
     """A whole run; ``forms`` says in words what each form is, ``scenes`` each module's digest."""
 
@@ -90,6 +101,7 @@ class Measurement:
     scenes: dict[str, str]
     errors: tuple[ErrorRow, ...] = ()
     times: tuple[TimeRow, ...] = ()
+    missing: tuple[Missing, ...] = ()
 
     def functions(self, scene: str) -> tuple[str, ...]:
         """The functions of a scene that were measured, in order."""
@@ -151,6 +163,7 @@ def save(measurement: Measurement, path: Path) -> None:
     parts += [
         table_text("errors", ErrorRow, measurement.errors),
         table_text("times", TimeRow, measurement.times),
+        table_text("missing", Missing, measurement.missing),
     ]
     write_text(path, "{\n" + ",\n".join(parts) + "\n}\n")
 
@@ -180,6 +193,7 @@ def load(path: Path) -> Measurement:
             scenes=record["scenes"],
             errors=rows_of(ErrorRow, record["errors"]),
             times=rows_of(TimeRow, record["times"]),
+            missing=rows_of(Missing, record.get("missing", NONE)),
         )
     except (KeyError, TypeError, ValueError) as error:
         raise ValueError(f"{path}: not a measurement of rodproof ({error!r})") from None

@@ -53,6 +53,11 @@ class Store:
         self.path.unlink(missing_ok=True)
 
 
+def kept(done: int) -> str:
+    """What is said when a run begins with so many results of one that broke off."""
+    return f"{done} kept from the run that broke off" if done else ""
+
+
 def _ends_a_line(path: Path) -> bool:
     with path.open("rb") as file:
         file.seek(-1, os.SEEK_END)

@@ -84,10 +84,10 @@ class Subject:
             for name, value in zip(CONSTANT_NAMES, values, strict=True)
         )
 
-    def record(self, values: Sequence[float]) -> Any:
-        """The module's own record of constants; ValueError where it refuses them."""
+    def record(self, values: Sequence[float], module: ModuleType | None = None) -> Any:
+        """The own record of constants of a module, this one's; ValueError where it refuses them."""
         named = dict(zip(CONSTANT_NAMES, values, strict=True))
-        return self.module.Constants(**{name: named[name] for name in self.constants})
+        return (module or self.module).Constants(**{name: named[name] for name in self.constants})
 
     def arguments(self, function: str, first: Array, second: Array) -> list[Array]:
         """The whole point in the arrays that the module's function takes."""

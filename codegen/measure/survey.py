@@ -1,7 +1,8 @@
 """A whole measurement: the errors of all cells on workers, then the times alone on the machine.
 
 What is finished is kept beside the target, by scene, forms and version; a run that was broken off
-loses at most the cell it was at, and the next one goes on from there.
+loses at most the cell it was at, and the next one goes on from there. The errors of peers are
+computed here, after the workers are gone: what is compiled for them is compiled once.
 """
 
 from __future__ import annotations
@@ -10,11 +11,12 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from rodproof.codegen.measure import cells, records
-from rodproof.codegen.measure.records import ErrorRow, Measurement, Settings, TimeRow
+from rodproof.codegen.measure.records import ErrorRow, Measurement, Missing, Settings, TimeRow
 from rodproof.codegen.measure.rivals import all_forms
-from rodproof.codegen.measure.store import Store
+from rodproof.codegen.measure.store import Store, kept
 from rodproof.codegen.measure.subjects import Subject, subjects
 from rodproof.derivations import workers
 
@@ -51,26 +53,48 @@ def measure(
     clocks = {cell: cells.key(cell, asked) for cell in cells.time_cells(wanted, asked)}
     total = len(errors) + len(clocks)
     done = sum(key in store for key in (*errors.values(), *clocks.values()))
-    tell("", done, total)
-    missing = [cell for cell, key in errors.items() if key not in store]
-    tasks = [workers.Task(cell.name, cells.measure_errors, (cell, asked)) for cell in missing]
+    tell(kept(done), done, total)
+    todo = [cell for cell, key in errors.items() if key not in store]
+    spread = [cell for cell in todo if not cell.of_peers]
+    tasks = [workers.Task(cell.name, cells.measure_errors, (cell, asked)) for cell in spread]
     for index, rows in workers.run(tasks, jobs=jobs, scheduler=scheduler, executor=executor):
-        store.add(errors[missing[index]], [asdict(row) for row in rows])
+        store.add(errors[spread[index]], [asdict(row) for row in rows])
         done += 1
-        tell(missing[index].name, done, total)
-    for cell, key in clocks.items():
-        if key not in store:
-            store.add(key, [asdict(row) for row in cells.measure_times(cell, asked)])
+        tell(spread[index].name, done, total)
+    for cell in todo:
+        if cell.of_peers:
+            store.add(errors[cell], [asdict(row) for row in cells.measure_errors(cell, asked)])
             done += 1
-            tell(f"time of {cell.name}", done, total)
-    measured = Measurement(
-        records.this_machine(),
-        asked,
-        {form.name: form.words for form in all_forms()},
-        {one.name: one.digest for one in wanted},
-        tuple(ErrorRow(**row) for key in errors.values() for row in store[key]),
-        tuple(TimeRow(**row) for key in clocks.values() for row in store[key]),
-    )
+            tell(f"peers of {cell.name}", done, total)
+    for clock, key in clocks.items():
+        if key not in store:
+            store.add(key, [asdict(row) for row in cells.measure_times(clock, asked)])
+            done += 1
+            tell(f"time of {clock.name}", done, total)
+    found = [row for key in errors.values() for row in store[key]]
+    times = tuple(TimeRow(**row) for key in clocks.values() for row in store[key])
+    measured = _measurement(asked, wanted, found, times)
     records.save(measured, path)
     store.forget()
     return measured
+
+
+def _measurement(
+    asked: Settings,
+    wanted: Sequence[Subject],
+    found: Sequence[dict[str, Any]],
+    times: tuple[TimeRow, ...],
+) -> Measurement:
+    """All that was found; a peer that failed in every kind of input is named once."""
+    errors = tuple(ErrorRow(**row) for row in found if "why" not in row)
+    failed = dict.fromkeys(Missing(**row) for row in found if "why" in row)
+    known = {row.form for row in errors}
+    return Measurement(
+        records.this_machine(),
+        asked,
+        {form.name: form.words for form in all_forms() if form.name in known},
+        {one.name: one.digest for one in wanted},
+        errors,
+        times,
+        (*cells.missing(asked), *failed),
+    )

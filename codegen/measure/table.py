@@ -25,7 +25,12 @@ def page(measurement: Measurement) -> str:
 def _preface(measurement: Measurement) -> str:
     machine, asked = measurement.machine, measurement.settings
     forms = "\n".join(f"- **{name}**: {words}" for name, words in measurement.forms.items())
-    size = "a quick look" if asked.quick else "a full measurement"
+    size = "a quick look without the peers" if asked.quick else "a full measurement"
+    absent = "".join(
+        f"\n- {row.form}{f', {row.where}' if row.where else ''}: {row.why}"
+        for row in measurement.missing
+    )
+    forms += f"\n\nNot measured here:\n{absent}" if absent else ""
     return f"""# Error and run time of every scene and function
 
 Made by `rodproof report` from the stored measurement beside this page: {size}, with seed
@@ -57,14 +62,19 @@ def _winners(measurement: Measurement, scene: str) -> str:
             "ordinary": marks(measurement, scene, function, "ordinary"),
             "all": marks(measurement, scene, function, "all"),
         }
-        cells = [_winner(winner(found[kind], wanted)) for kind, wanted in kinds]
+        cells = [_winner(found[kind], wanted) for kind, wanted in kinds]
         lines.append(f"| {function} | {' | '.join(cells)} |")
-    said = "The cheapest form whose worst error is at most so many ulps, with its ns a point:"
+    said = (
+        "The cheapest form whose worst error is at most so many ulps, with its ns a point; after "
+        "a stroke\nthe cheapest that needs neither a compiler nor another library:"
+    )
     return said + "\n\n" + "\n".join(lines)
 
 
-def _winner(mark: Mark | None) -> str:
-    return f"{mark.form} ({number(mark.time)})" if mark else "none"
+def _winner(found: list[Mark], wanted: float) -> str:
+    marks = (winner(found, wanted), winner(found, wanted, plain=True))
+    said = [f"{mark.form} ({number(mark.time)})" if mark else "none" for mark in marks]
+    return " / ".join(dict.fromkeys(said))
 
 
 def _section(measurement: Measurement, scene: str, function: str) -> str:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from statistics import median
 from time import perf_counter_ns
 
 import numpy as np
 
+from rodproof.codegen.measure.form import Code, Form
 from rodproof.codegen.measure.inputs import Batch, batches
 from rodproof.codegen.measure.records import TimeRow, finite
-from rodproof.codegen.measure.rivals import Form
 from rodproof.codegen.measure.subjects import Subject
 
 #: Points for a form that loops over them in Python.
@@ -25,53 +25,72 @@ SHORTEST_NS = 200_000
 def times(
     subject: Subject, function: str, forms: Sequence[Form], points: int, rounds: int, seed: int
 ) -> list[TimeRow]:
-    """One row per form, on a block of ordinary points or on a single one."""
+    """One row per form, on a block of ordinary points or on a single one.
+
+    A form that cannot be had (its errors say why) has none.
+    """
     (drawn,) = batches(subject, function, "ordinary", np.float64, seed, 1, DRAWN)
-    calls = [_bound(form, subject, function, points, drawn) for form in forms]
-    repeats = [_repeats(call) for call, _ in calls]
-    rows: list[list[float]] = [[] for _ in forms]
-    gc.collect()
-    gc.disable()
-    try:
-        for _ in range(rounds):
-            for samples, (call, size), count in zip(rows, calls, repeats, strict=True):
-                samples.append(_clock(call, count) / size)
-    finally:
-        gc.enable()
-    middles = [median(samples) for samples in rows]
+    code = Code(subject, function)
+    bound = {form.name: _bound(form, code, points, drawn) for form in forms}
+    calls = {name: found[0] for name, found in bound.items() if found}
+    sizes = {name: found[1] for name, found in bound.items() if found}
+    ns = {name: total / sizes[name] for name, total in medians(calls, rounds, SHORTEST_NS).items()}
+    base = next(iter(ns.values()))
     return [
         TimeRow(
             subject.name,
             function,
-            form.name,
+            name,
             points,
-            finite(ns) or 0.0,
-            finite(ns / middles[0]) or 0.0,
+            finite(own) or 0.0,
+            finite(own / base) or 0.0,
         )
-        for form, ns in zip(forms, middles, strict=True)
+        for name, own in ns.items()
     ]
 
 
 def _bound(
-    form: Form, subject: Subject, function: str, points: int, drawn: Batch
-) -> tuple[Callable[[], object], int]:
-    size = min(points, FEW) if form.loops(subject, function) else points
+    form: Form, code: Code, points: int, drawn: Batch
+) -> tuple[Callable[[], object], int] | None:
+    size = min(points, FEW) if form.loops(code) else points
     first, second = (
         np.tile(rows, -(-size // DRAWN))[:, :size].astype(form.dtype)
         for rows in (drawn.first, drawn.second)
     )
-    law = form.bind(subject, function, drawn.constants)
-    given = form.prepare(subject, function, first, second, points == 1)
+    try:
+        law = form.bind(code, drawn.constants)
+        given = form.prepare(code, first, second, points == 1)
+        law(*given)  # warm
+    except Exception:
+        if form.needs:
+            return None
+        raise
     return (lambda: law(*given)), size
 
 
-def _repeats(call: Callable[[], object]) -> int:
-    call()  # warm
-    return max(1, round(SHORTEST_NS / max(_clock(call, 1), 1.0)))
+def medians(
+    calls: Mapping[str, Callable[[], object]], rounds: int, shortest: float
+) -> dict[str, float]:
+    """Nanoseconds of each call, which has run before: each in every round, the median of them.
+
+    shortest: a call that takes less is repeated within its turn.
+    """
+    repeats = {name: max(1, round(shortest / clock(call, 1))) for name, call in calls.items()}
+    samples: dict[str, list[float]] = {name: [] for name in calls}
+    gc.collect()
+    gc.disable()
+    try:
+        for _ in range(rounds):
+            for name, call in calls.items():
+                samples[name].append(clock(call, repeats[name]))
+    finally:
+        gc.enable()
+    return {name: median(found) for name, found in samples.items()}
 
 
-def _clock(call: Callable[[], object], count: int) -> float:
+def clock(call: Callable[[], object], count: int) -> float:
+    """Nanoseconds of a call, run so many times; at least one."""
     start = perf_counter_ns()
     for _ in range(count):
         call()
-    return (perf_counter_ns() - start) / count
+    return max((perf_counter_ns() - start) / count, 1.0)

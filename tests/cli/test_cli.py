@@ -135,8 +135,13 @@ def test_scenes_gives_the_account_of_one() -> None:
     said = rodproof("scenes", "dsdna").stdout
     assert "Constants left out: zeta." in said
     assert "71 of 108" in said
+    assert "ns a point: on this machine, now" in said
     (found,) = json.loads(rodproof("scenes", "dsdna", "--json").stdout)
     assert found["constants_left_out"] == ["zeta"]
+    times = found["times"]["functions"]
+    assert [row["function"] for row in times] == [row["function"] for row in found["lines"]]
+    assert all(row["own"] > 0 and row["full"] > 0 for row in times)
+    assert found["times"]["points"] == 10_000
     assert "did you mean 'dsdna'" in one_sentence(rodproof("scenes", "dnsa"))
 
 

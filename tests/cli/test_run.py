@@ -31,13 +31,16 @@ def test_run_does_all_and_says_where(here: Path) -> None:
     rows = json.loads(result.stdout)
     stages = [row["stage"] for row in rows]
     assert [stage for stage in dict.fromkeys(stages) if stage != "refuted"] == [
-        *("derived", "checked", "generated", "documented", "measured")
+        *("derived", "checked", "generated", "documented", "measured", "drawn")
     ]
     assert "rodproof check constants-hypothesis" in [row["where"] for row in rows]
     for row in rows:
-        if row["stage"] in ("generated", "documented", "measured"):
+        if row["stage"] in ("generated", "documented", "measured", "drawn"):
             assert row["where"]
             assert all((here / name).is_file() for name in row["where"].split())
+    drawn = " ".join(row["where"] for row in rows if row["stage"] == "drawn").split()
+    made = (here / "docs" / "report").rglob("*.[sp][vn]g")
+    assert sorted(drawn) == sorted(str(path.relative_to(here)) for path in made)
     assert not list(here.rglob("*.part"))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rodproof.codegen import account, scene
+from rodproof.codegen.measure.beside import Beside
 from rodproof.codegen.scene import Scene
 
 ACCOUNTS = {name: account.account(scene.committed(name)) for name in scene.committed_names()}
@@ -34,7 +35,10 @@ def test_dna_in_words() -> None:
         "Constants: alpha, beta, eta, iota, gamma, p.",
         "Constants left out: zeta.",
     ]
-    rows = {row[0]: row[1:] for row in account.table(ACCOUNTS["dsdna"])}
+    times = [Beside(line.function, 20.0, 40.25) for line in ACCOUNTS["dsdna"].lines]
+    rows = {row[0]: row[1:] for row in account.table(ACCOUNTS["dsdna"], times)}
+    assert len(rows["strains"]) == len(account.COLUMNS) - 1
+    assert rows["strains"][-1] == "20 of 40.2"
     assert rows["strains"][0] == "m (3, ...), n3 (...) -> u (3, ...), v3 (...)"
     assert rows["stiffness"][0] == "u (3, ...), v3 (...) -> stiff (4, 4, ...)"
 

@@ -6,6 +6,7 @@ import dataclasses
 import json
 import math
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -277,16 +278,20 @@ def test_a_study_that_broke_off_goes_on(
     monkeypatch.setattr(survey, "runs", counted)
     with pytest.raises(KeyboardInterrupt):
         survey.measure(path, ASKED, silent, chosen=RODS)
-    kept = path.with_suffix(".cells")
-    kept.write_text(kept.read_text()[:-30])
-    again: list[str] = []
-    study = survey.measure(path, ASKED, lambda name, *_: again.append(name), chosen=RODS)
+    journal = path.with_suffix(".cells")
+    journal.write_text(journal.read_text()[:-30])
+    again: list[tuple[str, int, int]] = []
+    study = survey.measure(path, ASKED, lambda *told: again.append(told), chosen=RODS)
     cells = [cell for cell in integrated if len(cell) == 3]
     assert len(cells) == 2 * len(EQUATIONS) * len(METHODS) + 1
     assert len(set(cells)) == len(cells) - 1
     assert untimed(study) == untimed(studied[1])
-    assert not kept.exists()
-    assert again[-1] == "done"
+    assert not journal.exists()
+    kept = len(RODS) + 4  # the references, and of five cells the last is cut
+    assert again[0][:2] == (f"{kept} kept from the run that broke off", kept)
+    counts = [done for _, done, _ in again]
+    assert all(after - before in (0, 1) for before, after in pairwise(counts))
+    assert again[-1] == ("done", counts[-1], counts[-1])
 
 
 def test_what_other_code_or_settings_found_is_not_taken_over() -> None:

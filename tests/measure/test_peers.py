@@ -9,30 +9,25 @@ import numpy as np
 import pytest
 
 from rodproof.codegen.measure import peer_c, peers
+from rodproof.codegen.measure.form import Code, Form, blocks
+from rodproof.codegen.measure.rivals import form_of
 
 
 def _tell(name: str, done: int, total: int) -> None:
     """Nobody watches."""
 
 
-EVERY = peers._peers
-
-
-def _few(folder: Path) -> dict[str, tuple[str, peers.Bind]]:
-    return {
-        name: entry
-        for name, entry in EVERY(folder)
-        if name in ("rodproof numpy", "C", "C exp/log", "lambdify cse")
-    }
+FEW = ("stable float64", "C", "C exp/log", "lambdify cse")
 
 
 def test_every_case_is_timed_and_stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(peers, "_peers", lambda folder: _few(folder).items())
+    monkeypatch.setattr(peers, "peers", lambda: tuple(map(form_of, FEW)))
     monkeypatch.setattr(peers, "FUNCTIONS", ("strains", "loads"))
     found = peers.compare((1, 40), 3, _tell)
-    here = ["rodproof numpy", "lambdify cse"] + ["C", "C exp/log"] * bool(peer_c.compiler())
+    here = ["stable float64", "lambdify cse"] + ["C", "C exp/log"] * bool(peer_c.compiler())
     assert set(found.peers) == set(here)
-    assert len(found.times) == len(here) * len(peers.FUNCTIONS) * 2 * 2
+    cases = len(here) * 2 - ("C exp/log" in here)  # which is for general p alone
+    assert len(found.times) == cases * len(peers.FUNCTIONS) * 2
     assert all(t.ratio == 1 for t in found.times if t.peer == peers.REFERENCE)
     assert set(found.missing) == {"C", "C exp/log"} - set(here)
     peers.save(found, tmp_path / "peers.json")
@@ -44,18 +39,18 @@ def test_every_case_is_timed_and_stored(tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def test_a_peer_that_fails_or_answers_something_else_is_named() -> None:
-    def absent(given: peers.Task) -> object:
+    def absent(code: Code, values: tuple[float, ...]) -> object:
         raise ImportError("no module named absent")
 
-    def wrong(given: peers.Task) -> object:
-        return lambda: [row + 1 for row in given.rows]
+    def wrong(code: Code, values: tuple[float, ...]) -> object:
+        return lambda first, second: (first + 1, second + 1)
 
-    ours = dict(peers._peers(Path()))["rodproof numpy"]
-    entries = {"ours": ours, "absent": ("", absent), "wrong": ("", wrong)}
+    ours = form_of("stable float64")
+    entries = (ours, Form("absent", "", absent, blocks), Form("wrong", "", wrong, blocks))
     missing: dict[str, str] = {}
     given = peers.task("strains", 2.0, 5)
     times = list(peers._case(given, entries, 3, missing))
-    assert [t.peer for t in times] == ["ours"]
+    assert [t.peer for t in times] == ["stable float64"]
     assert missing["absent"] == "ImportError: no module named absent"
     assert "off by" in missing["wrong, strains"]
 
@@ -65,17 +60,19 @@ def test_a_peer_that_fails_or_answers_something_else_is_named() -> None:
 def test_the_c_kernel_writes_every_row(power: int, tmp_path: Path) -> None:
     """Symmetric, and the derivative of the loads."""
     given = peers.task("loads_and_stiffness", 2.0, 9)
-    library = peer_c.build(power, tmp_path)
+    library, (first, second) = peer_c.build(power, tmp_path), (given.first, given.second)
+    outs, more = (
+        (np.zeros((3, 9)), np.zeros((3, 9)), np.zeros((6, 6, 9))) for _ in ("here", "moved")
+    )
     k = np.array([0.49, 1.21, 0.81, 2.56, -0.4, 2.3, 2.0])
-    peer_c.bound(library, given.function, (given.first, given.second, k, *given.outs), 9)()
-    stiff = given.outs[2].copy()
+    peer_c.bound(library, given.function, (first, second, k, *outs), 9)()
+    stiff = outs[2].copy()
     assert np.array_equal(stiff, stiff.transpose(1, 0, 2))
     step = 1e-6
-    moved = given.first.copy()
+    moved = first.copy()
     moved[1] += step
-    more = tuple(np.zeros_like(out) for out in given.outs)
-    peer_c.bound(library, given.function, (moved, given.second, k, *more), 9)()
-    change = np.concatenate([more[0] - given.outs[0], more[1] - given.outs[1]]) / step
+    peer_c.bound(library, given.function, (moved, second, k, *more), 9)()
+    change = np.concatenate([more[0] - outs[0], more[1] - outs[1]]) / step
     np.testing.assert_allclose(change, stiff[:, 1], atol=1e-4)
 
 

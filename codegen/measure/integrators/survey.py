@@ -16,7 +16,7 @@ from rodproof.codegen.measure.integrators.problems import Problem
 from rodproof.codegen.measure.integrators.records import Settings, Study
 from rodproof.codegen.measure.integrators.reference import reference
 from rodproof.codegen.measure.integrators.runs import EQUATIONS, METHODS, Run, runs
-from rodproof.codegen.measure.store import Store
+from rodproof.codegen.measure.store import Store, kept
 from rodproof.derivations import workers
 
 Tell = Callable[[str, int, int], None]
@@ -44,18 +44,17 @@ def measure(
         for name in EQUATIONS
         for method in METHODS
     }
-    clock = _Clock(tell, len(ends) + len(cells))
+    done = sum(key in store for key in (*ends.values(), *cells.values()))
+    clock = _Clock(tell, len(ends) + len(cells), done)
     missing = [rod for rod, key in ends.items() if key not in store]
-    clock.skip(len(ends) - len(missing))
     tasks = [workers.Task(rod.name, reference, (rod,)) for rod in missing]
-    clock.tell("references")
+    clock.tell(kept(done) or "references")
     for index, known in workers.run(tasks, jobs=jobs, scheduler=scheduler):
         store.add(ends[missing[index]], asdict(known))
         clock.done(missing[index].name)
     references = {rod: records.reference_of(store[key]) for rod, key in ends.items()}
     for (rod, name, method), key in cells.items():
         if key in store:
-            clock.skip(1)
             continue
         clock.tell(f"{rod.name}, {name}, {method}")
         found = runs(rod, name, method, references[rod], asked.tolerances, asked.budget)
@@ -76,19 +75,16 @@ def measure(
 class _Clock:
     """Tells what is being done, how many of how many, and the time left at the pace so far."""
 
-    def __init__(self, tell: Tell, total: int) -> None:
-        self._tell, self._total, self._known, self._new = tell, total, 0, 0
+    def __init__(self, tell: Tell, total: int, kept: int) -> None:
+        self._tell, self._total, self._kept, self._new = tell, total, kept, 0
         self._started = time.monotonic()
-
-    def skip(self, count: int) -> None:
-        self._known += count
 
     def done(self, name: str) -> None:
         self._new += 1
         self.tell(name)
 
     def tell(self, name: str) -> None:
-        finished = self._known + self._new
+        finished = self._kept + self._new
         left = (self._total - finished) * (time.monotonic() - self._started) / max(self._new, 1)
         words = f"{name}; {left / 60:.0f} min left" if self._new and left else name
         self._tell(words, finished, self._total)
