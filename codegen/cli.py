@@ -64,7 +64,9 @@ def one_sentence(
     try:
         yield
     except refused as error:
-        typer.echo(str(error), err=True)
+        of_file = isinstance(error, OSError) and error.strerror and error.filename
+        said = f"{error.filename}: {error.strerror}" if of_file else str(error)
+        typer.echo(said, err=True)
         raise typer.Exit(USAGE) from None
 
 

@@ -21,6 +21,9 @@ from rodproof.derivations.latex import block
 from rodproof.derivations.proof.mutants import mutants as broken_twins
 from rodproof.derivations.records import VERDICTS, Confirmation, Decision, Evidence, Statement
 
+#: So many names are listed where none is near the one asked for.
+FEW = 30
+
 #: One module a section, in the order of the paper.
 SECTIONS: Mapping[str, str] = {
     "1": "section_1",
@@ -58,7 +61,7 @@ def _section(name: str) -> tuple[Statement, ...]:
 def statements(section: str | None = None) -> tuple[Statement, ...]:
     """The statements of one section, or all of them in the paper's order."""
     if section is not None and section not in SECTIONS:
-        raise UnknownStatement(_unknown("section", section, SECTIONS))
+        raise UnknownStatement(unknown("section", section, SECTIONS))
     names = SECTIONS if section is None else (section,)
     return tuple(s for name in names for s in _section(name))
 
@@ -85,14 +88,18 @@ def find(ids: Iterable[str]) -> tuple[Statement, ...]:
     for name in ids:
         section = _index().get(name)
         if section is None:
-            raise UnknownStatement(_unknown("statement", name, _index()))
+            raise UnknownStatement(unknown("statement", name, _index()))
         found += [s for s in _section(section) if s.id == name]
     return tuple(found)
 
 
-def _unknown(kind: str, name: str, known: Iterable[str]) -> str:
-    near = difflib.get_close_matches(name, list(known), n=3, cutoff=0.4)
+def unknown(kind: str, name: str, known: Iterable[str]) -> str:
+    """A sentence on a name that does not exist: the nearest ones, or all if they are few."""
+    every = list(known)
+    near = difflib.get_close_matches(name, every, n=3, cutoff=0.4)
     hint = f"; nearest: {', '.join(near)}" if near else ""
+    if not near and len(every) <= FEW:
+        hint = f"; known: {', '.join(every)}"
     return f"there is no {kind} {name!r}{hint}"
 
 

@@ -170,6 +170,7 @@ def cluster(address: str) -> Iterator[Executor]:
             f"{address}: needs dask.distributed: pip install 'rodproof[cluster]'"
         ) from None
     try:
+        _well_formed(address)
         client = Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
         raise NoWorkers(f"{address}: no dask scheduler answers there ({error})") from None
@@ -186,6 +187,17 @@ def cluster(address: str) -> Iterator[Executor]:
             yield executor
         finally:
             executor.shutdown(wait=False)
+
+
+def _well_formed(address: str) -> None:
+    """ValueError for what is no address: a client that finds it out itself takes long."""
+    from distributed.comm.addressing import parse_address, parse_host_port
+    from distributed.comm.registry import get_backend
+
+    scheme, place = parse_address(address)
+    get_backend(scheme)
+    if scheme != "inproc":
+        parse_host_port(place)
 
 
 def _difference(found: object) -> str:

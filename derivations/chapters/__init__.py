@@ -6,11 +6,11 @@ with the rule used, the formula reached in the paper's notation, and the check t
 
 from __future__ import annotations
 
-import difflib
 import importlib
 from collections.abc import Mapping
 from functools import cache
 
+from rodproof.derivations import ledger
 from rodproof.derivations.records import Derivation
 
 #: Module -> the section it belongs to and the labels of its derivations, in reading order. Only
@@ -52,9 +52,7 @@ def derive(label: str) -> Derivation:
     for module, (_, found) in _MODULES.items():
         if label in found:
             return _chapter(module)[label]
-    near = difflib.get_close_matches(label, labels(), n=3, cutoff=0.3)
-    hint = f"; nearest: {', '.join(near)}" if near else ""
-    raise UnknownDerivation(f"there is no derivation {label!r}{hint}")
+    raise UnknownDerivation(ledger.unknown("derivation", label, labels()))
 
 
 def settling(statement: str, section: str) -> tuple[tuple[Derivation, int], ...]:

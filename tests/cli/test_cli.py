@@ -155,6 +155,12 @@ def test_generate_own_scene(tmp_path: Path) -> None:
     assert [path.name for path in out.parent.iterdir()] == ["my_law.py"]
 
 
+def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    result = rodproof("errata", "--section", "2.1", "--out", str(tmp_path / "file" / "e.md"))
+    assert one_sentence(result) == f"{tmp_path / 'file'}: File exists"
+
+
 def test_generate_own_scene_with_an_unknown_key(tmp_path: Path) -> None:
     own, out = tmp_path / "my.toml", tmp_path / "my_law.py"
     own.write_text('name = "my_law"\nfunctoins = ["strains"]\n')

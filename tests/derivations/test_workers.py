@@ -7,6 +7,8 @@ import json
 import multiprocessing
 import os
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
@@ -201,6 +203,19 @@ def test_an_address_that_nobody_answers_at(monkeypatch: pytest.MonkeyPatch) -> N
         (line,) = result.stderr.strip().splitlines()
         assert line.startswith(f"{address}: no dask scheduler answers there")
     assert time.monotonic() - started < 60
+
+
+@pytest.mark.parametrize("address", ["nonsense", "nonsense://a", "tcp://a", "tcp://a:b"])
+def test_what_is_no_address_is_said_and_no_more(address: str) -> None:
+    """In a process of its own: a client that is never connected complains when it is collected."""
+    pytest.importorskip("distributed", reason="needs the extra `cluster`")
+    command = Path(sys.executable).with_name("rodproof")
+    done = subprocess.run(
+        [command, "check", "const-u-3", "--scheduler", address], capture_output=True, text=True
+    )
+    assert done.returncode == 2
+    (line,) = done.stderr.strip().splitlines()
+    assert line.startswith(f"{address}: no dask scheduler answers there")
 
 
 def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
