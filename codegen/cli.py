@@ -64,8 +64,9 @@ def one_sentence(
     try:
         yield
     except refused as error:
-        of_file = isinstance(error, OSError) and error.strerror and error.filename
-        said = f"{error.filename}: {error.strerror}" if of_file else str(error)
+        said = str(error)
+        if isinstance(error, OSError) and error.filename:
+            said = f"{error.filename}: {error.strerror}"
         typer.echo(said, err=True)
         raise typer.Exit(USAGE) from None
 
