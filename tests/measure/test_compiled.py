@@ -23,14 +23,20 @@ from rodproof.codegen.measure.rivals import form_of
 from rodproof.codegen.measure.subjects import subject
 
 WHOLE = Settings(20240607, False, batches=1, points=2, rounds=1, timed_points=8)
-HERE = [
-    pytest.param(
-        peer,
-        id=peer.name,
-        marks=pytest.mark.skipif(bool(compiled.missing(peer)), reason=str(compiled.missing(peer))),
-    )
-    for peer in compiled.forms()
-]
+PEERS = compiled.forms()
+PLACES = ("full_rod.strains", "full_rod_p2.loads_and_stiffness", "kirchhoff.loads")
+
+
+def here(peer: Form, *more: str) -> object:
+    """The peer as a parameter, skipped where it is missing."""
+    why = compiled.missing(peer)
+    mark = pytest.mark.skipif(why is not None, reason=str(why))
+    return pytest.param(peer, *more, id="-".join((peer.name, *more)), marks=mark)
+
+
+def can(peer: Form, where: str) -> bool:
+    scene, function = where.split(".")
+    return peer.can(Code(subject(scene), function))
 
 
 @pytest.fixture(scope="module")
@@ -39,16 +45,13 @@ def apart() -> Iterator[Executor]:
         yield executor
 
 
-@pytest.mark.parametrize("peer", HERE)
 @pytest.mark.parametrize(
-    "where", ["full_rod.strains", "full_rod_p2.loads_and_stiffness", "kirchhoff.loads"]
+    ("peer", "where"), [here(peer, where) for where in PLACES for peer in PEERS if can(peer, where)]
 )
 def test_a_peer_answers_as_the_oracle(peer: Form, where: str, apart: Executor) -> None:
     scene, function = where.split(".")
     if peer.name == "numba cse" and "stiffness" in function:
         function = "loads"  # the matrix is compiled for many seconds
-    if not peer.can(Code(subject(scene), function)):
-        pytest.skip(f"{peer.name} has no {where}")
     cell = cells.ErrorCell(scene, function, (peer.name,), "ordinary")
     if peer.name == "jax":
         (row,) = apart.submit(cells.measure_errors, cell, WHOLE).result()
@@ -61,7 +64,7 @@ def test_a_peer_answers_as_the_oracle(peer: Form, where: str, apart: Executor) -
     assert row.worst < 1e6
 
 
-@pytest.mark.parametrize("peer", [peer for peer in HERE if peer.id != "jax"])
+@pytest.mark.parametrize("peer", [here(peer) for peer in PEERS if peer.name != "jax"])
 def test_blocks_of_any_size_and_constants_of_any_kind(peer: Form) -> None:
     """A law that is built once answers other constants and other blocks, and numbers put in."""
     one = subject("full_rod")
@@ -180,7 +183,7 @@ def test_results_are_kept_by_the_peers_version(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_peers_are_in_a_full_measurement(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Errors, times, words and what is missing, stored and on the page."""
+    """Errors, times, words and what is missing, stored and on the page; goes on among the peers."""
     missing = compiled.missing
 
     def without_jax(peer: Form) -> str | None:
@@ -189,11 +192,20 @@ def test_peers_are_in_a_full_measurement(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr(compiled, "missing", without_jax)
     path = tmp_path / "measurement.json"
     told: list[tuple[int, int]] = []
-    found = survey.measure(
-        path, WHOLE, lambda _, *count: told.append(count), chosen=(subject("thrust"),)
-    )
+
+    def tell(name: str, done: int, total: int) -> None:
+        told.append((done, total))
+        if name == broken_off:
+            raise KeyboardInterrupt
+
+    broken_off, chosen = "peers of thrust.strains, extreme", (subject("thrust"),)
+    with pytest.raises(KeyboardInterrupt):
+        survey.measure(path, WHOLE, tell, chosen=chosen)
+    (kept, total), broken_off = told[-1], ""
+    told.clear()
+    found = survey.measure(path, WHOLE, tell, chosen=chosen)
+    assert told == [(done, total) for done in range(kept, total + 1)]
     assert records.load(path) == found
-    assert told[-1][0] == told[-1][1] == len(told) - 1
     derived = [peer for peer in compiled.forms() if peer.can(Code(subject("thrust"), "strains"))]
     absent = {row.form for row in found.missing}
     assert "jax" in absent
