@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
 
 from rodproof.codegen import generate
 from rodproof.codegen.count import Cost, cost
@@ -104,9 +104,19 @@ def table(found: Account, times: Sequence[Beside]) -> list[tuple[str, ...]]:
     ]
 
 
+def data(found: Account) -> dict[str, Any]:
+    """The account for JSON."""
+    return asdict(found)
+
+
 def sentences(found: Account) -> list[str]:
     """What stands above the table."""
     said = [found.summary, *found.restrictions, f"Constants: {', '.join(found.constants)}."]
     if found.constants_left_out:
         said.append(f"Constants left out: {', '.join(found.constants_left_out)}.")
     return said
+
+
+def title(found: Account) -> str:
+    """The same as lines."""
+    return "\n".join(sentences(found))

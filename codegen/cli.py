@@ -207,8 +207,6 @@ def scenes(
 
 def _accounts(found: Sequence[Scene], as_json: bool) -> None:
     """What each scene leaves out and saves: operations counted, time taken here and now."""
-    from dataclasses import asdict
-
     from rodproof.codegen import account
     from rodproof.codegen.measure import beside
 
@@ -217,10 +215,9 @@ def _accounts(found: Sequence[Scene], as_json: bool) -> None:
         own = account.account(entry)
         with show.progress(entry.name) as tell:
             times = beside.beside(entry.name, tell)
-        rows.append(asdict(own) | {"times": beside.data(times)})
+        rows.append(account.data(own) | {"times": beside.data(times)})
         if not as_json:
-            shown = account.table(own, times), "\n".join(account.sentences(own))
-            show.table(account.COLUMNS, *shown)
+            show.table(account.COLUMNS, account.table(own, times), account.title(own))
             typer.echo(beside.NOTE)
     if as_json:
         show.as_json(rows)
