@@ -7,12 +7,12 @@ from pathlib import Path
 
 from rodproof.codegen import show
 from rodproof.codegen.measure import records
+from rodproof.codegen.measure.form import ENERGIES
 from rodproof.codegen.pipeline import Outcome
 from rodproof.codegen.places import Places
 
 OURS = "stable float64"
 RIVAL = "lambdify cse"
-ENERGIES = ("stored_energy", "complementary_energy")  # by mpmath there: no comparison
 
 
 PICTURES = (".svg", ".png")
@@ -64,7 +64,7 @@ def _measured(places: Places, reports: tuple[Path, ...]) -> list[Row]:
     failures = sum(error.failures for error in ours)
     beyond = max((error.beyond for error in ours if error.beyond is not None), default=0.0)
     points = measured.settings.timed_points
-    ratios = [
+    ratios = [  # not of the energies, which are mpmath's there
         time.ratio
         for time in measured.times
         if time.form == RIVAL and time.points == points and time.function not in ENERGIES
