@@ -17,11 +17,11 @@ import numpy as np
 from scipy.integrate import solve_bvp, solve_ivp
 from scipy.optimize import brentq
 
+from rodproof.codegen.scene import CONSTANT_NAMES
 from rodproof.generated.equilibria import directors, states
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
-NAMES = ("alpha", "beta", "zeta", "eta", "iota", "gamma", "p")
 SOFT = states.Constants(
     alpha=0.7, beta=1.1, zeta=0.5, eta=1.6, iota=-0.4, gamma=2.3, p=3.3
 )  # softer in shear than in extension, chiral
@@ -32,7 +32,7 @@ LINE = slice(7, 10)
 
 def law(constants: states.Constants) -> directors.Constants:
     """The same rod for the module of directors."""
-    return directors.Constants(**{name: getattr(constants, name) for name in NAMES})
+    return directors.Constants(**{name: getattr(constants, name) for name in CONSTANT_NAMES})
 
 
 # -- initial values ------------------------------------------------------------------------------
@@ -277,7 +277,7 @@ def confirm(constants: states.Constants = SOFT) -> Confirmation:
     angle = float(states.sheared_angle(thrust, constants))
     problems = [(0.0, "free"), (angle + 0.1, "free"), (angle, "clamped")]
     return Confirmation(
-        {name: getattr(constants, name) for name in NAMES},
+        {name: getattr(constants, name) for name in CONSTANT_NAMES},
         tuple(stay(state, constants) for state in followed),
         start,
         tuple(branch),

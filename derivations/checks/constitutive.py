@@ -13,7 +13,7 @@ from rodproof.derivations.exact.evaluate import numbers
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Every, W, Wstar, m, n, u, v
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.meaning import Meaning, Point, Values
+from rodproof.derivations.proof.meaning import Meaning, Point, Values, of_matrix
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.proof.rules import (
     DefiniteForms,
@@ -83,20 +83,12 @@ _STRESS = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"T{min(i, j) + 1}{max(i, j) + 
 _F = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"F{i + 1}{j + 1}", real=True))
 
 
-def _entries(name: str, matrix: sp.Matrix) -> dict[sp.Symbol, sp.Expr]:
-    return {
-        sp.Symbol(f"{name}{i + 1}{j + 1}", real=True): matrix[i, j]
-        for i in range(3)
-        for j in range(3)
-    }
-
-
 def _symmetric_stress() -> dict[sp.Symbol, sp.Expr]:
     """The rod's scalar law with gamma = 1/a and y = b|T|; T is symmetric."""
     norm = sp.sqrt(sum(entry**2 for entry in _STRESS))
     factor = (theory.radial_law().strain / y).subs({gamma: 1 / a, y: b * norm})
-    lower = {k: value for k, value in _entries("T", _STRESS).items() if k != value}
-    return {norm_T: norm, **lower, **_entries("e", factor * _STRESS)}
+    lower = {k: value for k, value in of_matrix("T", _STRESS).items() if k != value}
+    return {norm_T: norm, **lower, **of_matrix("e", factor * _STRESS)}
 
 
 def _almansi() -> dict[sp.Symbol, sp.Expr]:
@@ -104,7 +96,7 @@ def _almansi() -> dict[sp.Symbol, sp.Expr]:
     inverse = _F.adjugate() / _F.det()
     left = _F * _F.T
     strain = (sp.eye(3) - inverse.T * inverse) / 2
-    return {**_entries("e", strain), **_entries("Binv", left.adjugate() / left.det())}
+    return {**of_matrix("e", strain), **of_matrix("Binv", left.adjugate() / left.det())}
 
 
 def _sample_tensor(seed: int) -> Point:
@@ -300,7 +292,8 @@ def _radius_route(point: Point, ctx: Any) -> Values:
     return {x: ctx.quad(slope, [0, c[y]])}
 
 
-def _sample_radius(seed: int) -> Point:
+def sample_radius(seed: int) -> Point:
+    """Generic constants and a generic load radius y."""
     return {**sampling.constants(seed), y: sp.Rational(5 + 4 * seed, 3)}
 
 
@@ -308,7 +301,7 @@ ON_RADII = Meaning(
     name="all load radii",
     free=(*CONSTANTS, y),
     components={x: theory.radial_law().strain},
-    sample=_sample_radius,
+    sample=sample_radius,
     positive=(chiral_gap,),
     simple=lambda: tuple(
         {**c, y: sp.Integer(k)} for c in sampling.simple_constants() for k in (1, 3)

@@ -7,6 +7,7 @@ from typing import Any
 
 import sympy as sp
 
+from rodproof.derivations.checks.constitutive import sample_radius
 from rodproof.derivations.checks.domains import ON_LOADS, NumericLaw
 from rodproof.derivations.checks.routes import values as measured
 from rodproof.derivations.exact.field import Field, OutOfReach
@@ -25,13 +26,9 @@ _REJECTED = Decision(False, False, "rejected")
 stiffness = sp.Symbol("k", positive=True)  # dy/dx
 
 
-def _radius(seed: int) -> Point:
-    return {**sampling.constants(seed), y: sp.Rational(5 + 4 * seed, 3)}
-
-
 #: The slope of the load radius by the strain radius.
 SLOPES = Meaning(
-    name="loads of any size along a ray", free=(*CONSTANTS, y), sample=_radius,
+    name="loads of any size along a ray", free=(*CONSTANTS, y), sample=sample_radius,
     simple=lambda: tuple({**c, y: sp.Integer(1)} for c in sampling.simple_constants()),
     components={stiffness: theory.tangent_stiffness()},
     route=measured.slopes(stiffness),

@@ -25,7 +25,7 @@ from rodproof.derivations.exact.evaluate import number, numbers
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Every, Partial, W, Wstar, m, n, u, v
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.meaning import Meaning, Point, Values
+from rodproof.derivations.proof.meaning import Meaning, Point, Values, of_vector
 from rodproof.derivations.proof.prover import Identity, claims
 from rodproof.derivations.records import Confirmation, Decision
 from rodproof.derivations.symbols import CONSTANTS, LOADS, STRAINS, v3
@@ -45,16 +45,12 @@ FORCE = sp.Matrix(LOADS[3:])
 TANGENT = sp.Matrix(STRAINS[3:])
 
 
-def _named(base: sp.IndexedBase, vector: Any) -> dict[sp.Symbol, Any]:
-    return {sp.Symbol(f"{base.label}{k}", real=True): e for k, e in enumerate(vector, 1)}
-
-
 def _moving(central: dict[sp.Symbol, sp.Expr]) -> Meaning:
     """Any motion; `central` says which moments of the mass vanish."""
     couple_slope = theory.couple_rate() - TANGENT.cross(FORCE)
     components = {
-        **_named(n_s, theory.force_slope()), **_named(m_s, couple_slope),
-        **_named(H, theory.section_momentum()), **_named(H_t, theory.section_momentum_rate()),
+        **of_vector(n_s, theory.force_slope()), **of_vector(m_s, couple_slope),
+        **of_vector(H, theory.section_momentum()), **of_vector(H_t, theory.section_momentum_rate()),
     }  # fmt: skip
     return Meaning(
         name="moving sections", free=(), sample=_sample_motion,
@@ -147,11 +143,11 @@ def _masses(point: Point, ctx: Any) -> Values:
     lever = inside(numeric.cross(place(zero), slopes[:3]))
     couple = zip(about_o, lever, numeric.cross(tangent, force), strict=True)
     return {
-        **_named(w, u_like), **_named(r_tt, inside(slope)),
-        **_named(n_s, inside(slopes[:3])),
-        **_named(H, inside(arm_momentum(zero))), **_named(H_t, turning),
-        **_named(m_s, [x - y - z for x, y, z in couple]),
-        **_named(v, tangent), **_named(n, force),
+        **of_vector(w, u_like), **of_vector(r_tt, inside(slope)),
+        **of_vector(n_s, inside(slopes[:3])),
+        **of_vector(H, inside(arm_momentum(zero))), **of_vector(H_t, turning),
+        **of_vector(m_s, [x - y - z for x, y, z in couple]),
+        **of_vector(v, tangent), **of_vector(n, force),
     }  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from rodproof.derivations.checks.couple.domains import HALF_ANGLE, on_all
 from rodproof.derivations.checks.couple.route import t
 from rodproof.derivations.exact.evaluate import context, numbers
 from rodproof.derivations.notation import Every
-from rodproof.derivations.proof.meaning import Meaning, Point, Values
+from rodproof.derivations.proof.meaning import Meaning, Point, Values, of_vector
 from rodproof.derivations.proof.prover import Identity
 from rodproof.derivations.records import Confirmation, Decision
 from rodproof.derivations.symbols import CONSTANTS, beta, eta, iota, v3, zeta
@@ -33,12 +33,8 @@ o, m_a, m_b, r_a, r_b, n_b = (
 tilt_sheared, tilt_straight = sp.symbols("tilt_sheared tilt_straight", real=True)
 
 
-def _named(base: sp.IndexedBase, vector: Any) -> dict[sp.Symbol, Any]:
-    return {sp.Symbol(f"{base.label}{k}", real=True): e for k, e in enumerate(vector, 1)}
-
-
-_ORIGIN = _named(r_a, theory.origin)
-_FORCE = _named(n_b, theory.force)
+_ORIGIN = of_vector(r_a, theory.origin)
+_FORCE = of_vector(n_b, theory.force)
 _ROUTE = "loads of a straight sheared rod at both ends, from r(s) and the directors"
 
 
@@ -75,8 +71,8 @@ def _measured(seed: int) -> dict[sp.Basic, Any]:
     first, _ = numeric.contact(line, frame, law, ctx.mpf(0), ctx)
     last, force = numeric.contact(line, frame, law, ctx.mpf(1), ctx)
     return {
-        **_named(m_a, first), **_named(m_b, last), **_named(r_a, start),
-        **_named(r_b, line(ctx.mpf(1))), **_named(n_b, force), euler.N: force[2],
+        **of_vector(m_a, first), **of_vector(m_b, last), **of_vector(r_a, start),
+        **of_vector(r_b, line(ctx.mpf(1))), **of_vector(n_b, force), euler.N: force[2],
         tilt_sheared: frame(ctx.mpf(0))[2][2], tilt_straight: ctx.mpf(1),
     }  # fmt: skip
 
@@ -95,7 +91,7 @@ def _meaning(name: str, components: dict[sp.Symbol, sp.Expr]) -> Meaning:
 #: Every equilibrium with r(0) = o.
 ANY = _meaning(
     "equilibria under any end force",
-    {**_ORIGIN, **_named(m_b, theory.last_couple())},
+    {**_ORIGIN, **of_vector(m_b, theory.last_couple())},
 )
 
 
@@ -103,8 +99,8 @@ def _branch(name: str, line: sp.Matrix) -> Meaning:
     """m = 0 along the rod."""
     nothing = sp.zeros(3, 1)
     return _meaning(name, {
-        **_ORIGIN, **_FORCE, **_named(m_a, nothing), **_named(m_b, nothing),
-        **_named(r_b, theory.origin + line),
+        **_ORIGIN, **_FORCE, **of_vector(m_a, nothing), **of_vector(m_b, nothing),
+        **of_vector(r_b, theory.origin + line),
     })  # fmt: skip
 
 

@@ -21,7 +21,7 @@ from rodproof.derivations.exact.evaluate import context, numbers
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Every, ForAll, Iff, Q, W, chain, u, v
 from rodproof.derivations.proof import curves, sampling
-from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values
+from rodproof.derivations.proof.meaning import IllTyped, Meaning, Point, Values, of_matrix
 from rodproof.derivations.proof.prover import DIGITS, Identity
 from rodproof.derivations.proof.vectors import REJECTED
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
@@ -175,14 +175,6 @@ def _misses(maps: tuple[sp.Matrix, sp.Matrix], operation: Operation) -> Countere
 # -- the matrices ------------------------------------------------------------------------------
 
 
-def _entries(name: str, matrix: sp.Matrix) -> dict[sp.Symbol, sp.Expr]:
-    return {
-        sp.Symbol(f"{name}{i + 1}{j + 1}", real=True): matrix[i, j]
-        for i in range(3)
-        for j in range(3)
-    }
-
-
 def _sample(seed: int) -> Point:
     mirror = {s: sp.Rational(2 + 3 * k - seed, 7) for k, s in enumerate(symmetry.mirror)}
     return {**sampling.with_strains(seed), **mirror, psi: sp.Rational(9 + 4 * seed, 7)}
@@ -222,7 +214,7 @@ def _route_of_matrices(point: Point, ctx: Any) -> Values:
 
 MATRICES_MEANING = Meaning(
     name="actions of flip and rotation on v", free=(psi,),
-    components={**_entries("E", action(FLIP).on_v), **_entries("R", action(ROTATION).on_v)},
+    components={**of_matrix("E", action(FLIP).on_v), **of_matrix("R", action(ROTATION).on_v)},
     sample=_sample, simple=lambda: ({psi: sp.pi / 2}, {psi: sp.pi}),
     route=_route_of_matrices, route_name="a numerical rod transformed and measured again",
 )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,6 +18,20 @@ Values = Mapping[sp.Basic, Any]
 
 class IllTyped(ValueError):
     """The transcription puts something where the notation allows none (a misprint)."""
+
+
+def of_vector(base: sp.IndexedBase, vector: Iterable[Any]) -> dict[sp.Symbol, Any]:
+    """Three components by the names that a transcription has for them."""
+    return {sp.Symbol(f"{base.label}{k}", real=True): e for k, e in enumerate(vector, 1)}
+
+
+def of_matrix(name: str, matrix: Any) -> dict[sp.Symbol, Any]:
+    """The nine entries by their names, an expression or a number each."""
+    return {
+        sp.Symbol(f"{name}{i + 1}{j + 1}", real=True): matrix[i, j]
+        for i in range(3)
+        for j in range(3)
+    }
 
 
 @dataclass(frozen=True, eq=False)

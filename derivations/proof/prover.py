@@ -75,7 +75,8 @@ def _routed(meaning: Meaning, seed: int) -> dict[sp.Basic, Any]:
 
 
 @cache
-def _numbers(meaning: Meaning, seed: int) -> Evaluator:
+def at_generic_point(meaning: Meaning, seed: int) -> Evaluator:
+    """The numbers of one generic point of a domain, shared by all broken twins."""
     return meaning.evaluator(context(DIGITS), meaning.sample(seed))
 
 
@@ -130,7 +131,7 @@ def _given(meaning: Meaning, hypothesis: Chain, facts: tuple[sp.Expr, ...]) -> M
 def _decide_chain(claim: Chain, meaning: Meaning, explain: bool) -> Decision:
     for link in claim.links():
         for seed in range(POINTS):
-            if not _agrees(link, _numbers(meaning, seed)):
+            if not _agrees(link, at_generic_point(meaning, seed)):
                 found = counterexample(link, meaning) if explain else None
                 return Decision(False, found is not None, "counterexample", found)
     field = Field(meaning.positive)

@@ -12,13 +12,14 @@ import pytest
 
 from rodproof.codegen.measure import branches
 from rodproof.codegen.measure.branches import SOFT
+from rodproof.codegen.scene import CONSTANT_NAMES
 from rodproof.generated.equilibria import directors, states
 
 POWERS = (0.8, 3.3, 20.0)
 
 
 def rod(p: float) -> states.Constants:
-    return states.Constants(**{name: getattr(SOFT, name) for name in branches.NAMES} | {"p": p})
+    return states.Constants(**{name: getattr(SOFT, name) for name in CONSTANT_NAMES} | {"p": p})
 
 
 @pytest.fixture(scope="module", params=POWERS)

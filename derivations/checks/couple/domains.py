@@ -22,7 +22,6 @@ from rodproof.derivations.checks.couple.route import (
     d1,
     d2,
     d3,
-    entries,
     length,
     m_g,
     measured,
@@ -40,7 +39,7 @@ from rodproof.derivations.exact.evaluate import context, number
 from rodproof.derivations.exact.field import Field
 from rodproof.derivations.notation import Chain, Prime
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.meaning import Meaning, Point, Values
+from rodproof.derivations.proof.meaning import Meaning, Point, Values, of_vector
 from rodproof.derivations.proof.prover import DIGITS, ROUTE_POINTS, Identity, claims
 from rodproof.derivations.records import Confirmation, Decision
 from rodproof.derivations.symbols import CONSTANTS, STRAINS, beta, chiral_gap, eta, gamma, v3
@@ -176,9 +175,9 @@ def twisted(sign: int, upright: bool, turned: bool = False) -> Branch:
         M3: sign * c, **angle,
     }  # fmt: skip
     for base, director in zip((d1, d2, d3), euler.directors(), strict=True):
-        components |= entries(base, _replaced(director, at, angle))
+        components |= of_vector(base, _replaced(director, at, angle))
     tangent = _replaced(theory.tangent(state), {v3: strains[5]}, at, angle)
-    components |= entries(r_s, tangent)
+    components |= of_vector(r_s, tangent)
     for k, e in enumerate(euler.directors()[2], 1):
         rate = _replaced([sp.diff(e.xreplace(at), s)], angle)[0]
         components[sp.Symbol(f"d3_s{k}", real=True)] = rate
@@ -212,8 +211,8 @@ def helical(sign: int, circle: bool = False) -> Branch:
         **dict(zip((M1, M2, M3), _replaced(state.couple, couple, angle), strict=True)),
         **dict(zip(STRAINS, _replaced(strains, angles), strict=True)),
         phi_s: turn, psi_s: spin, **angles, **angle,
-        **entries(r_s, _replaced(theory.tangent(state), {v3: strains[5]}, angle, angles)),
-        **entries(m_g, vector),
+        **of_vector(r_s, _replaced(theory.tangent(state), {v3: strains[5]}, angle, angles)),
+        **of_vector(m_g, vector),
     }  # fmt: skip
     line = _replaced(theory.center_line(), {v3: strains[5], phi_s: turn}, angle)
     cosine, sine = angle[sp.cos(theta)], angle[sp.sin(theta)]
@@ -245,7 +244,7 @@ def shaped(sign: int, circle: bool = False) -> Meaning:
         M1: sign * c, M3: theory.axial_couple().xreplace({M1: sign * c}).xreplace(dict(angle)),
         **{k: e.xreplace(dict(angle)).xreplace(table) for k, e in names.items()},
         **table, **angle,
-        **entries(r_s, _replaced(theory.tangent(theory.helix()), table, angle, {phi: rate * s})),
+        **of_vector(r_s, _replaced(theory.tangent(theory.helix()), table, angle, {phi: rate * s})),
     }  # fmt: skip
     branch = helical(sign, circle)
 
@@ -295,7 +294,7 @@ class OfState:
     @staticmethod
     def rebuilt(branch: Branch, seed: int, printed: sp.Basic, ctx: Any) -> float:
         """The distance from equilibrium, and from the same couple, of the stated configuration."""
-        inputs = {phi, psi, *(x for base in (d1, d2, d3, r) for x in entries(base, (0, 0, 0)))}
+        inputs = {phi, psi, *(x for base in (d1, d2, d3, r) for x in of_vector(base, (0, 0, 0)))}
         changed = {
             claim.sides[0]: branch.meaning.interpret(claim.sides[1])
             for claim in claims(printed)
@@ -304,7 +303,7 @@ class OfState:
         values, residual = _measure(branch, seed)
         if changed:
             again, residual = branch.built(seed, ctx, changed)
-            moved = [abs(again[x] - values[x]) for x in (*entries(m_g, (0, 0, 0)), M3)]
+            moved = [abs(again[x] - values[x]) for x in (*of_vector(m_g, (0, 0, 0)), M3)]
             residual = max(residual, float(max(moved)))
         return residual
 

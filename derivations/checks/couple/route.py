@@ -10,7 +10,7 @@ import sympy as sp
 from rodproof.derivations.checks import equilibrium as route
 from rodproof.derivations.exact.evaluate import Evaluator, number
 from rodproof.derivations.notation import Prime
-from rodproof.derivations.proof.meaning import Point, Values
+from rodproof.derivations.proof.meaning import Point, Values, of_vector
 from rodproof.derivations.symbols import STRAINS, gamma
 from rodproof.derivations.theory import euler
 from rodproof.derivations.theory.couple import s
@@ -28,11 +28,6 @@ d1, d2, d3, d3_s, r, r_s, m_g = (
 )
 
 
-def entries(base: sp.IndexedBase, vector: euler.Vector) -> dict[sp.Symbol, sp.Expr]:
-    """Three components by name."""
-    return {sp.Symbol(f"{base.label}{k}", real=True): e for k, e in enumerate(vector, 1)}
-
-
 @dataclass(frozen=True, eq=False)
 class Configuration:
     """phi(s), theta, psi(s) and r(s) in closed form, in the free symbols of a meaning."""
@@ -45,10 +40,10 @@ class Configuration:
         names = {phi: 0, theta: 1, psi: 2}
         angles = {x: changed.get(x, self.angles[i]) for x, i in names.items()}
         vectors = [
-            [changed.get(name, e.xreplace(angles)) for name, e in entries(base, d).items()]
+            [changed.get(name, e.xreplace(angles)) for name, e in of_vector(base, d).items()]
             for base, d in zip((d1, d2, d3), euler.directors(), strict=True)
         ]
-        line = [changed.get(x, e) for x, e in zip(entries(r, self.line), self.line, strict=True)]
+        line = [changed.get(x, e) for x, e in zip(of_vector(r, self.line), self.line, strict=True)]
         frame = _function([e for vector in vectors for e in vector], point, ctx)
         return _function(line, point, ctx), lambda x: _rows(frame(x))
 
@@ -95,8 +90,8 @@ def measured(state: Configuration, point: Point, ctx: Any, changed: Values) -> t
     tangent = route.slope(line, at, ctx)
     for base, vector in ((r_s, tangent), (m_g, m), (d1, directors[0]), (d2, directors[1]),
                          (d3, directors[2])):  # fmt: skip
-        found |= entries(base, vector)
-    found |= entries(d3_s, route.slope(lambda x: frame(x)[2], at, ctx))
+        found |= of_vector(base, vector)
+    found |= of_vector(d3_s, route.slope(lambda x: frame(x)[2], at, ctx))
     found[length] = ctx.sqrt(route.dot(tangent, tangent, ctx))
     found[M3] = route.dot(m, directors[2], ctx)
     if state.angles[1] != 0:

@@ -13,7 +13,7 @@ from rodproof.derivations.checks.thrust.numeric import turned
 from rodproof.derivations.exact.evaluate import context, numbers
 from rodproof.derivations.notation import LimitOf, Partial
 from rodproof.derivations.proof import sampling
-from rodproof.derivations.proof.meaning import Point, Values
+from rodproof.derivations.proof.meaning import Point, Values, of_matrix
 from rodproof.derivations.symbols import LOADS, STRAINS, alpha, gamma, p, zeta
 from rodproof.derivations.theory.constitutive import y
 from rodproof.derivations.theory.dissipation import a as time_u
@@ -46,11 +46,6 @@ def _tensor(name: str, values: Mapping[sp.Symbol, Any], ctx: Any, symmetric: boo
     return ctx.matrix([[entry(i, j) for j in range(3)] for i in range(3)])
 
 
-def _entries(name: str, matrix: Any) -> dict[sp.Basic, Any]:
-    return {sp.Symbol(f"{name}{i + 1}{j + 1}", real=True): matrix[i, j]
-            for i in range(3) for j in range(3)}  # fmt: skip
-
-
 def stress(point: Point, ctx: Any) -> Values:
     """|T| from its eigenvalues; e with the strain radius from integrating its slope in b|T|."""
     values = numbers(ctx, point)
@@ -61,9 +56,9 @@ def stress(point: Point, ctx: Any) -> Values:
     reached = ctx.quad(
         lambda r: G * (G + r**power) ** (-1 / power - 1), [0, b * norm / 4, b * norm]
     )
-    lower = {x: e for x, e in _entries("T", T).items() if x not in values}
+    lower = {x: e for x, e in of_matrix("T", T).items() if x not in values}
     return {sp.Symbol("norm_T", positive=True): norm, **lower,
-            **_entries("e", reached / (b * norm) * T)}  # fmt: skip
+            **of_matrix("e", reached / (b * norm) * T)}  # fmt: skip
 
 
 def deformation(point: Point, ctx: Any) -> Values:
@@ -82,7 +77,7 @@ def deformation(point: Point, ctx: Any) -> Values:
     for i in range(3):
         for j in range(3):
             e[i, j] = (grown(axis(i, j)) - grown(axis(i)) - grown(axis(j))) / 2
-    return {**_entries("e", e), **_entries("Binv", ctx.inverse(F * F.T))}
+    return {**of_matrix("e", e), **of_matrix("Binv", ctx.inverse(F * F.T))}
 
 
 # -- slopes and limits ---------------------------------------------------------------------------

@@ -12,7 +12,6 @@ import sympy as sp
 from rodproof.derivations.checks.thrust import domains, numeric, points
 from rodproof.derivations.checks.thrust.moduli import (
     a,
-    at_generic_point,
     at_point,
     b,
     c,
@@ -26,7 +25,14 @@ from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.exact.limits import limit
 from rodproof.derivations.notation import Chain, Implies, LimitOf, instances
 from rodproof.derivations.proof.meaning import Meaning, Point
-from rodproof.derivations.proof.prover import DIGITS, POINTS, ROUTE_POINTS, Identity, claims
+from rodproof.derivations.proof.prover import (
+    DIGITS,
+    POINTS,
+    ROUTE_POINTS,
+    Identity,
+    at_generic_point,
+    claims,
+)
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import (
     iota,

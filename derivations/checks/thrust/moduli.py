@@ -18,7 +18,7 @@ from rodproof.derivations.exact.evaluate import Evaluator, context
 from rodproof.derivations.exact.field import Field, OutOfReach
 from rodproof.derivations.notation import Chain, Iff, Implies
 from rodproof.derivations.proof.meaning import Meaning, Point
-from rodproof.derivations.proof.prover import DIGITS, POINTS
+from rodproof.derivations.proof.prover import POINTS
 from rodproof.derivations.records import Confirmation, Counterexample, Decision
 from rodproof.derivations.symbols import (
     alpha,
@@ -87,12 +87,6 @@ def _value(expr: sp.Expr, point: Point) -> Any:
 def at_point(point: tuple[tuple[sp.Symbol, sp.Rational], ...]) -> Evaluator:
     """One evaluator a point: what the broken twins share is evaluated once."""
     return Evaluator(context(30), dict(point))
-
-
-@cache
-def at_generic_point(meaning: Meaning, seed: int) -> Evaluator:
-    """The numbers of one generic point of a domain, shared by all broken twins."""
-    return meaning.evaluator(context(DIGITS), meaning.sample(seed))
 
 
 @dataclass(frozen=True, eq=False)
