@@ -24,7 +24,11 @@ class Cost:
 
 
 def cost(kernel: Kernel) -> Cost:
-    """The cost of one point; the gauge's square root is counted, its scaled path is not."""
+    """The cost of one point where nothing is extreme: of the plain kernel, if there is one.
+
+    The gauge's square root is counted, its scaled path is not.
+    """
+    kernel = kernel.plain or kernel
     arithmetic = transcendental = special = 0
     for expr in kernel.expressions():
         for node in sp.preorder_traversal(expr):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rodproof.codegen import equilibria
@@ -18,9 +18,10 @@ from rodproof.codegen import scene as toml
 from rodproof.codegen.kernel import Kernel, validate
 from rodproof.codegen.lower import lower
 from rodproof.codegen.passes.choose import case, stabilise
-from rodproof.codegen.passes.drop_guards import drop_guards
+from rodproof.codegen.passes.drop_guards import alone, drop_guards
 from rodproof.codegen.passes.name import name
 from rodproof.codegen.passes.order import order
+from rodproof.codegen.passes.plain import plain, uncouple
 from rodproof.codegen.passes.share import share
 from rodproof.codegen.passes.specialise import drop_dead, specialise
 from rodproof.codegen.scene import TARGETS, Scene
@@ -53,22 +54,41 @@ def passes(scene: Scene) -> tuple[Pass, ...]:
         lambda kernel: stabilise(kernel, chosen),
         lambda kernel: specialise(kernel, scene),
         lambda kernel: drop_guards(kernel, scene),
-        share,
-        drop_dead,
-        order,
-        name,
+        *TIDY,
     )
 
 
+#: The last passes, which know nothing of the scene.
+TIDY: tuple[Pass, ...] = (share, drop_dead, order, name)
+
+
 def kernels(scene: Scene) -> tuple[Kernel, ...]:
-    """The scene's kernels after all passes."""
+    """The scene's kernels after all passes, with their plain kernels beside them.
+
+    Where the scene's ranges prove that every point is in a plain kernel's region, that is all.
+    """
     done = []
-    for kernel in lower(scene):
+    for lowered in lower(scene):
+        kernel = lowered
         for step in passes(scene):
             kernel = step(kernel)
+        plain = plain_kernel(lowered, scene)
+        if plain is not None:
+            proved = alone(kernel, plain, scene)
+            kernel = proved or replace(kernel, plain=plain)
         validate(kernel, frozenset(s.name for s in CONSTANTS))
         done.append(kernel)
     return tuple(done)
+
+
+def plain_kernel(lowered: Kernel, scene: Scene) -> Kernel | None:
+    """The plain kernel of the scene, if the function has one."""
+    kernel = plain(lowered, square=case(scene).square)
+    if kernel is None:
+        return None
+    for step in (lambda whole: specialise(whole, scene), uncouple, drop_dead, *TIDY):
+        kernel = step(kernel)
+    return kernel
 
 
 def render(scene: Scene, verdicts: Mapping[str, str] | None = None, target: str = "numpy") -> str:

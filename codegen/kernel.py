@@ -19,6 +19,9 @@ import sympy as sp
 #: number whose exponential is near the largest one. In exact arithmetic they are 0 and infinity.
 tiny = sp.Symbol("tiny", positive=True)
 log_max = sp.Symbol("log_max", positive=True)
+#: tiny^(-1/4): products of three or four such numbers, and their inverses, are in range.
+span = sp.Symbol("span", positive=True)
+SPAN_POWER = 0.25
 
 
 class KernelError(ValueError):
@@ -60,23 +63,18 @@ class Gauge:
     radius: str
 
 
-#: The least and the largest value of a quantity among the points that are worked on together.
-least, most = sp.Symbol("least", positive=True), sp.Symbol("most", positive=True)
-
-
 @dataclass(frozen=True)
-class Ordinary:
-    """A shorter way to ``result``, without guards, for points where nothing is extreme.
+class Region:
+    """Where a plain kernel holds: ``low < quantity < high``, a name of the kernel.
 
-    It starts from the gauge's square, and needs no norm and no radius: these are equal without a
-    scale. It holds where all of ``within`` does, relations between the ``least`` and the ``most``
-    of the square, the constants, `tiny` and `log_max`. A target that works on a point at a time
-    may leave it aside.
+    The bounds are in p and `span`. Besides, every constant of the kernel must be
+    nought or lie between 1/span and span in magnitude: then no square leaves the range of numbers
+    without the quantity leaving the region.
     """
 
-    result: str
-    body: tuple[Assignment, ...]
-    within: tuple[sp.Basic, ...]
+    quantity: str
+    low: sp.Expr
+    high: sp.Expr
 
 
 @dataclass(frozen=True)
@@ -115,10 +113,12 @@ class Output:
 
 @dataclass(frozen=True)
 class Kernel:
-    """One public function: inputs, assignments in order, outputs, gauge, limit, dyad, short way.
+    """One public function: inputs, assignments in order, outputs, gauge, limit, dyad.
 
     ``constants`` are assignments in the constants alone, evaluated once per set of constants.
-    ``dropped`` names the guards that the scene's ranges made needless.
+    ``dropped`` names the guards that the scene's ranges made needless. ``plain`` is the same
+    function in fewer operations and without guards, for points where nothing is extreme; it says
+    itself in which ``region``. A target may leave it aside.
     """
 
     name: str
@@ -130,7 +130,8 @@ class Kernel:
     constants: tuple[Assignment, ...] = ()
     dyad: Dyad | None = None
     dropped: tuple[str, ...] = ()
-    ordinary: Ordinary | None = None
+    region: Region | None = None
+    plain: Kernel | None = None
 
     def expressions(self) -> Iterator[sp.Expr]:
         """Every expression evaluated per point."""
@@ -143,42 +144,12 @@ class Kernel:
             self,
             body=tuple(replace(a, expr=a.expr.xreplace(changed)) for a in self.body),
             outputs=tuple(replace(o, expr=o.expr.xreplace(changed)) for o in self.outputs),
-            ordinary=self.ordinary and _rewrite_ordinary(self.ordinary, changed),
         )
 
     def statements(self) -> tuple[str, ...]:
         """The statements the kernel rests on, each once, in order of use."""
         every = [a.statements for a in self.body] + [o.statements for o in self.outputs]
         return tuple(dict.fromkeys(s for statements in every for s in statements))
-
-
-def _rewrite_ordinary(ordinary: Ordinary, changed: dict[sp.Expr, sp.Expr]) -> Ordinary:
-    return replace(
-        ordinary,
-        body=tuple(replace(a, expr=a.expr.xreplace(changed)) for a in ordinary.body),
-        within=tuple(relation.xreplace(changed) for relation in ordinary.within),
-    )
-
-
-def ordinarily(kernel: Kernel) -> Kernel:
-    """The kernel for ordinary points alone: by the short way, without what only the long one needs.
-
-    The gauge goes with its norm and radius; a kernel without a short way stays as it is.
-    """
-    if kernel.ordinary is None:
-        return kernel
-    way = kernel.ordinary
-    long = {a.name: a for a in kernel.body}
-    short = tuple(a for a in kernel.body if a.name != way.result) + way.body
-    used, todo = set[str](), [s.name for o in kernel.outputs for s in o.expr.free_symbols]
-    defined = long | {a.name: a for a in short}
-    while todo:
-        name = todo.pop()
-        if name in defined and name not in used:
-            used.add(name)
-            todo += [s.name for s in defined[name].expr.free_symbols]
-    body = tuple(a for a in short if a.name in used)
-    return replace(kernel, body=body, gauge=None, ordinary=None)
 
 
 def symbol(name: str) -> sp.Symbol:
@@ -189,6 +160,8 @@ def symbol(name: str) -> sp.Symbol:
 def validate(kernel: Kernel, known: frozenset[str]) -> None:
     """Raises `KernelError` unless every name is set once, before use; ``known`` are constants."""
     defined = set(kernel.inputs) | known | {tiny.name, log_max.name}
+    if kernel.plain is not None:
+        validate(kernel.plain, known)
 
     def check(where: str, expr: sp.Expr) -> None:
         missing = sorted({s.name for s in expr.free_symbols} - defined)
@@ -202,11 +175,8 @@ def validate(kernel: Kernel, known: frozenset[str]) -> None:
         defined.add(a.name)
         if kernel.gauge is not None and a.name == kernel.gauge.square:
             defined |= {kernel.gauge.norm, kernel.gauge.radius}
-    for way in (kernel.ordinary,) if kernel.ordinary else ():
-        known_here = set(defined)
-        for a in way.body:
-            check(a.name, a.expr)
-            defined.add(a.name)
-        defined = known_here
+    if kernel.region is not None:
+        defined.add(span.name)
+        check("region", kernel.region.low + kernel.region.high + symbol(kernel.region.quantity))
     for o in kernel.outputs:
         check(f"output {o.array}{list(o.index)}", o.expr)

@@ -62,9 +62,6 @@ def step_text(step: str, scene: Scene) -> str:
         "soften": "Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."
         if powers
         else "Strain over load, (gamma^2 + y^2)^(-1/2), by the ratio of gamma and y.",
-        "ordinary": "Strain over load where nothing is extreme, by (y/gamma)^p."
-        if powers
-        else "Strain over load where nothing is extreme, by (y/gamma)^2.",
         "stiffen": "Load over strain, gamma (1 - x^p)^(-1/p), by the growth x^p/(1 - x^p), x^2 = Q."
         if powers
         else "Load over strain, gamma (1 - Q)^(-1/2).",
@@ -150,7 +147,7 @@ class _Words:
         if kernel.name == "strains_and_gap":
             made = self._listed(self.strain_groups)
             first = f"Strains {_names(self.strain_groups)} under the loads {loads}, and 1 - {x_p}."
-            more = "plain: near the limit\n    it says what the strains no longer can."
+            more = "plain:\n    near the limit it says what the strains no longer can."
             return first, [f"Answers {made}, and the gap {one} {more}"]
         if kernel.name == "loads":
             made = self._listed(self.load_groups)

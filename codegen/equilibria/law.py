@@ -11,6 +11,7 @@ from dataclasses import replace
 import sympy as sp
 
 from rodproof.codegen.equilibria.system import Piece, piece
+from rodproof.codegen.kernel import symbol
 from rodproof.codegen.lower import LOAD_NAMES
 from rodproof.codegen.passes import stabilise as rules
 from rodproof.derivations.symbols import alpha, beta, eta, gamma, zeta
@@ -26,8 +27,12 @@ COUPLED = {
 
 
 def pieces() -> tuple[Piece, ...]:
-    """Strains and compliance of the linear law."""
-    return (_strains(), _compliance())
+    """Strains and compliance of the linear law; they divide by gamma, whose reciprocal the
+    limited law does not keep.
+    """
+    divided = {symbol("per_gamma"): 1 / gamma}
+    found = (_strains(), _compliance())
+    return tuple(replace(part, kernel=part.kernel.rewrite(divided)) for part in found)
 
 
 def _strains() -> Piece:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from rodproof.codegen.kernel import Assignment, Kernel
 from rodproof.codegen.live import live, substitution
@@ -37,13 +37,7 @@ def stabilise(kernel: Kernel, case: Case) -> Kernel:
     """The kernel with its rules applied in order."""
     for rule in rules(kernel.name, case):
         kernel = apply(rule, kernel)
-    return shorten(kernel, case) if kernel.name == "strains" else kernel
-
-
-def shorten(kernel: Kernel, case: Case) -> Kernel:
-    """The kernel with the short way to its radial factor beside the one that always holds."""
-    way = square.ORDINARY_REACH if case.square else general.ORDINARY_REACH
-    return replace(kernel, ordinary=way)
+    return kernel
 
 
 def rules(function: str, case: Case = GENERAL) -> tuple[Rule, ...]:

@@ -16,12 +16,11 @@ from flint import arb
 from sympy.codegen.cfunctions import expm1, log1p
 
 from rodproof.codegen.kernel import (
+    SPAN_POWER,
     Assignment,
     Kernel,
-    least,
     log_max,
-    most,
-    ordinarily,
+    span,
     symbol,
     tiny,
 )
@@ -66,8 +65,7 @@ def drop_guards(kernel: Kernel, scene: Scene) -> Kernel:
         square = known.of(symbol(settled.gauge.square))
         room = Interval.around(arb(smallest * 2.0**62), arb(2.0**-62 / smallest))
         if room.low <= square.low and square.high <= room.high:
-            short = _is_ordinary(kernel, known, square)
-            settled = _by_the_short_way(kernel, settled) if short else _without_gauge(settled)
+            settled = _without_gauge(settled)
     if settled.limit is not None:
         quantity = known.of(symbol(settled.limit.quantity))
         if quantity.high < MARGIN:
@@ -116,20 +114,31 @@ def _choose(node: sp.Expr, known: _Intervals) -> sp.Expr:
     return node
 
 
-def _is_ordinary(kernel: Kernel, known: _Intervals, square: Interval) -> bool:
-    """Whether the ranges keep every point where the short way holds."""
-    if kernel.ordinary is None:
+def alone(kernel: Kernel, plain: Kernel, scene: Scene) -> Kernel | None:
+    """The plain kernel by itself, where the ranges prove that every point is in its region."""
+    region = plain.region
+    if region is None or not scene.ranges:
+        return None
+    known = _Intervals(plain, scene)
+    inside = known.of(symbol(region.quantity))
+    bounds = known.of(region.low), known.of(region.high)
+    room = known.of(span)
+    sizes = [known.of(a.symbol) for a in plain.constants]
+    if not (bounds[0].below(inside) and inside.below(bounds[1])):
+        return None
+    if not all(_even(size, room) for size in sizes):
+        return None
+    dropped = [*kernel.dropped]
+    dropped += ["overflow and underflow of squares"] if kernel.gauge else []
+    return replace(plain, region=None, dropped=tuple(dropped))
+
+
+def _even(size: Interval, room: Interval) -> bool:
+    """Whether the magnitude is nought or between 1/span and span."""
+    largest, smallest = size.high.max(-size.low), size.low.max(-size.high)
+    if not bool(largest < room.low):
         return False
-    at = {least: symbol("least"), most: symbol("most")}
-    known.set({"least": square, "most": square})
-    sides = [[known.of(side.xreplace(at)) for side in r.args] for r in kernel.ordinary.within]
-    return all(low.below(high) for low, high in sides)
-
-
-def _by_the_short_way(kernel: Kernel, settled: Kernel) -> Kernel:
-    """The short way alone; what the long one would have dropped went too."""
-    dropped = (*settled.dropped, "overflow and underflow of squares")
-    return replace(ordinarily(kernel), dropped=dropped)
+    return bool(smallest > 1 / room.low) or bool(largest == 0)
 
 
 def _without_gauge(kernel: Kernel) -> Kernel:
@@ -140,7 +149,7 @@ def _without_gauge(kernel: Kernel) -> Kernel:
     root = Assignment(gauge.radius, sp.sqrt(symbol(gauge.square)))
     plain = kernel.rewrite({symbol(gauge.norm): radius, symbol(gauge.radius): radius})
     dropped = (*kernel.dropped, "overflow and underflow of squares")
-    return replace(plain, body=(root, *plain.body), gauge=None, dropped=dropped, ordinary=None)
+    return replace(plain, body=(root, *plain.body), gauge=None, dropped=dropped)
 
 
 class _Intervals:
@@ -157,13 +166,11 @@ class _Intervals:
         largest = -0.99 * math.log(smallest)
         self._known["tiny"] = Interval(arb(smallest), arb(smallest))
         self._known["log_max"] = Interval(arb(largest), arb(largest))
+        room = arb(smallest) ** -SPAN_POWER
+        self._known["span"] = Interval(room, room)
         self._defined = {a.name: a.expr for a in (*kernel.constants, *kernel.body)}
         square = "q_star" if kernel.inputs[0] in LOAD_NAMES else "q"
         self._defined |= dict.fromkeys(("size", "y", "x"), sp.sqrt(symbol(square)))
-
-    def set(self, intervals: Mapping[str, Interval]) -> None:
-        """What is known of further names."""
-        self._known |= intervals
 
     def of(self, expr: sp.Basic) -> Interval:
         """The interval of an expression."""

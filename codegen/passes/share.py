@@ -24,7 +24,7 @@ def hoist_reciprocals(kernel: Kernel) -> Kernel:
     powers = sorted(
         {
             power
-            for expr in (*kernel.expressions(), *_short(kernel))
+            for expr in kernel.expressions()
             for power in expr.atoms(sp.Pow)
             if power.base in DIVISORS and power.exp.is_negative
         },
@@ -36,12 +36,6 @@ def hoist_reciprocals(kernel: Kernel) -> Kernel:
     return replace(kernel.rewrite(changed), constants=(*kernel.constants, *added))
 
 
-def _short(kernel: Kernel) -> list[sp.Basic]:
-    """What the short way holds."""
-    way = kernel.ordinary
-    return [*way.within, *(a.expr for a in way.body)] if way else []
-
-
 def drop_aliases(kernel: Kernel) -> Kernel:
     """An assignment that only renames another goes away."""
     kept_names = {kernel.dyad.weight, *kernel.dyad.vector} if kernel.dyad else set()
@@ -49,21 +43,9 @@ def drop_aliases(kernel: Kernel) -> Kernel:
         a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol and a.name not in kept_names
     }
     if not aliases:
-        return _drop_ordinary_aliases(kernel)
+        return kernel
     kept = tuple(a for a in kernel.body if a.symbol not in aliases)
     return drop_aliases(replace(kernel, body=kept).rewrite(aliases))
-
-
-def _drop_ordinary_aliases(kernel: Kernel) -> Kernel:
-    """The same for the short way."""
-    way = kernel.ordinary
-    alias = next((a for a in way.body if a.expr.is_Symbol), None) if way else None
-    if way is None or alias is None:
-        return kernel
-    kept = replace(way, body=tuple(a for a in way.body if a != alias))
-    return _drop_ordinary_aliases(
-        replace(kernel, ordinary=kept).rewrite({alias.symbol: alias.expr})
-    )
 
 
 def merge_equal(kernel: Kernel) -> Kernel:
@@ -92,11 +74,12 @@ def _share_step(kernel: Kernel, step: str) -> Kernel:
     inside = [a.expr for a in kernel.body if a.step == step]
     outputs = [o.expr for o in kernel.outputs] if step == "" else []
     fixed = {a.symbol for a in kernel.constants} | set(CONSTANTS)
+    along = {symbol(name) ** 2 for name in kernel.dyad.vector} if kernel.dyad else set()
     counts = Counter(
         node
         for expr in (*inside, *outputs)
         for node in sp.preorder_traversal(expr)
-        if _worth_a_name(node) and not node.free_symbols <= fixed
+        if _worth_a_name(node) and node not in along and not node.free_symbols <= fixed
     )
     repeated = sorted((n for n, c in counts.items() if c > 1), key=sp.default_sort_key)
     names = {

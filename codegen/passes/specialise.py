@@ -37,7 +37,12 @@ def propagate(kernel: Kernel, known: Mapping[sp.Expr, sp.Expr]) -> Kernel:
         constants = tuple(replace(a, expr=a.expr.xreplace(found)) for a in kernel.constants)
         kernel = replace(kernel.rewrite(found), constants=constants)
         found = {a.symbol: a.expr for a in kernel.body if a.expr.is_number}
-        found |= {a.symbol: a.expr for a in constants if _simple(a.expr)}
+        known_by_name = kernel.region is not None  # a plain kernel's constants: their sizes count
+        found |= {
+            a.symbol: a.expr
+            for a in constants
+            if a.expr.is_number or (_simple(a.expr) and not known_by_name)
+        }
         kernel = replace(
             kernel,
             body=tuple(a for a in kernel.body if a.symbol not in found),
@@ -47,8 +52,8 @@ def propagate(kernel: Kernel, known: Mapping[sp.Expr, sp.Expr]) -> Kernel:
 
 
 def _simple(expr: sp.Expr) -> bool:
-    """A number, or a modulus or its reciprocal, which needs no name of its own."""
-    return bool(expr.is_number) or expr.as_base_exp()[0].is_Symbol
+    """A modulus or its reciprocal, which needs no name of its own."""
+    return bool(expr.as_base_exp()[0].is_Symbol)
 
 
 def _gauge(gauge: Gauge | None, components: tuple[int, ...]) -> Gauge | None:
@@ -93,10 +98,8 @@ def drop_dead(kernel: Kernel) -> Kernel:
         needed.add(kernel.limit.quantity)
     if kernel.gauge is not None:
         needed.add(kernel.gauge.square)
-    way = kernel.ordinary
-    short = [*way.within, *(a.expr for a in way.body)] if way else []
-    own = {a.name for a in way.body} if way else set()
-    needed |= {s.name for expr in short for s in expr.free_symbols} - own
+    if kernel.region is not None:
+        needed.add(kernel.region.quantity)
     defined = {a.name: a for a in (*kernel.constants, *kernel.body)}
     todo = sorted(needed)
     while todo:

@@ -19,10 +19,7 @@ from rodproof.codegen.kernel import (
     Dyad,
     Kernel,
     KernelError,
-    Ordinary,
-    least,
     log_max,
-    most,
     symbol,
     tiny,
 )
@@ -202,36 +199,6 @@ SCALE_RADIAL_FACTOR = Rule(
     ((lower.strain_factor(), sp.exp(-log1p(power) / p) / sp.Max(y, gamma)),),
     SOFTEN_DEFINITIONS,
     "gamma^p and y^p overflow or underflow: y = 1e10, p = 40 answers 0 instead of 1/y",
-)
-
-q_star, scaled, overload = symbol("q_star"), symbol("scaled"), symbol("overload")
-excess = symbol("excess")
-
-#: (y/gamma)^2, in two steps so that gamma^2 is never formed.
-OVERLOAD_DEFINITIONS = (
-    Assignment("scaled", q_star / gamma),
-    Assignment("overload", scaled / gamma),
-)
-
-#: The squares are far from the ends of the range of numbers, before and after the division.
-IN_RANGE = (
-    sp.Lt(tiny * 2**60, least, evaluate=False),
-    sp.Lt(most * tiny * 2**60, 1, evaluate=False),
-    sp.Lt(tiny * gamma, least / gamma, evaluate=False),
-)
-
-ORDINARY_REACH = Ordinary(
-    "reach",
-    (
-        *OVERLOAD_DEFINITIONS,
-        Assignment("excess", sp.exp(p * sp.log(overload) / 2)),
-        Assignment("reach", sp.exp(-log1p(excess) / p) / gamma),
-    ),
-    (  # log(y/gamma) multiplies its own rounding: y up to 8 gamma; and 8^p must be a number
-        *IN_RANGE,
-        sp.Lt(most / gamma, 64 * gamma, evaluate=False),
-        sp.Lt(3 * p, log_max, evaluate=False),
-    ),
 )
 
 SPLIT_STRAIN_WEIGHT = Rule(

@@ -8,14 +8,9 @@ from __future__ import annotations
 import sympy as sp
 
 from rodproof.codegen import lower
-from rodproof.codegen.kernel import Assignment, Ordinary, most, symbol, tiny
-from rodproof.codegen.passes.stabilise import (
-    IN_RANGE,
-    OVERLOAD_DEFINITIONS,
-    Rule,
-    overload,
-)
+from rodproof.codegen.kernel import Assignment, symbol
 from rodproof.codegen.passes.stabilise import SPLIT_STRAIN_WEIGHT as SPLIT_BY_POWER
+from rodproof.codegen.passes.stabilise import Rule
 from rodproof.derivations.symbols import gamma
 from rodproof.derivations.theory import constitutive as theory
 
@@ -34,12 +29,6 @@ SCALE_RADIAL_FACTOR = Rule(
     ((lower.strain_factor(), FACTOR),),
     SOFTEN_DEFINITIONS,
     "gamma^2 and y^2 overflow or underflow",
-)
-
-ORDINARY_REACH = Ordinary(
-    "reach",
-    (*OVERLOAD_DEFINITIONS, Assignment("reach", 1 / sp.sqrt(1 + overload) / gamma)),
-    (*IN_RANGE, sp.Lt(most / gamma * tiny * 2**60, gamma, evaluate=False)),
 )
 
 SPLIT_STRAIN_WEIGHT = Rule(

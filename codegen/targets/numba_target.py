@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 
 from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.scene import Scene
@@ -34,9 +35,9 @@ def print_module(
     scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str] | None = None
 ) -> str:
     """The module's text; ``verdicts`` adds a verdict to each statement of the header."""
+    kernels = tuple(replace(kernel, plain=None) for kernel in kernels)  # one loop has no blocks
     words = {kernel.name: function_text(kernel, scene) for kernel in kernels}
     heads = {n: h for text in words.values() for n, h in (text.inputs | text.outputs).items()}
-    places = numpy_template.FIRST if scene.layout == "first" else numpy_template.LAST
     first = scene.layout == "first"
     flat = "*HEADS[name], points" if first else "points, *HEADS[name]"
     parts = [
@@ -49,7 +50,7 @@ def print_module(
             for kernel in kernels
             for part in _compiled(kernel, words[kernel.name], kernels, scene)
         ),
-        numpy_template.ARGUMENTS.substitute(places, dtype=numpy_template.DTYPES[scene.precision]),
+        numpy_template.arguments(scene.layout, scene.precision),
         template.APPLY.substitute(
             flat=flat,
             shape="(*HEADS[name], points)",

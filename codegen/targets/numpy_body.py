@@ -7,7 +7,7 @@ plumbing hands in. The last two rows are spoken for: ``s[-1]`` takes the root of
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import sympy as sp
@@ -15,7 +15,6 @@ import sympy as sp
 from rodproof.codegen.kernel import Assignment, Kernel, KernelError, Output, symbol
 from rodproof.codegen.passes.order import order
 from rodproof.codegen.scene import LOAD_NAMES, Scene
-from rodproof.codegen.targets import numpy_template as template
 from rodproof.codegen.targets.calls import Call, calls
 from rodproof.codegen.targets.printer import Printer
 from rodproof.codegen.targets.rows import Printed, last_reads, print_calls
@@ -24,6 +23,7 @@ from rodproof.derivations.symbols import CONSTANTS
 
 INDENT = "    "
 SPOKEN_FOR = 2
+WIDTH = 100
 
 
 @dataclass(frozen=True)
@@ -165,32 +165,27 @@ def _call(step: Step, kernel: Kernel, base: int) -> list[str]:
 
 def body(kernel: Kernel, steps: dict[str, Step], printer: Printer, text: FunctionText) -> Body:
     """The private function that works on one block."""
-    packed = _packed(kernel, text)
+    packed = packed_size(kernel, text)
     own = [steps[name] for name in dict.fromkeys(a.step for a in kernel.body if a.step)]
     known = {name for step in own for name in step.inputs}
-    known |= {kernel.ordinary.result} if kernel.ordinary else set()
-    work = _calls(kernel, printer, packed, known)
+    work = arranged(kernel, printer, packed, known)
     needed = last_reads(work)
     called, held, base, most = list[str](), dict[str, int](), 0, 0
     for step in own:
-        if kernel.ordinary is None:
-            called += _before(step, kernel, printer)
-            called += _call(step, kernel, base)
+        called += _before(step, kernel, printer)
+        called += _call(step, kernel, base)
         most = max(most, base + step.printed.rows)
         results = {name: base + row for name, row in step.printed.row.items()}
         held |= {name: results[name] for name in step.results if name in needed}
         base += step.kept
-    if kernel.ordinary:
-        called = _two_ways(kernel, own, printer)
-        held[kernel.ordinary.result] = own[0].kept + own[1].printed.row[_radial(kernel)]
-    places = {_place(o, packed): _place(o, packed) for o in kernel.outputs}
+    places = {place_of(o, packed): place_of(o, packed) for o in kernel.outputs}
     dyad = kernel.dyad
     vector = {name: f"{name[0]}[{k}]" for k, name in enumerate(dyad.vector)} if dyad else {}
     entries = list(vector or {p: p for p in places})
     inside = _stay(entries, held, work)
     start = 0 if inside else base
     fixed = {name: start + k for k, name in enumerate(entries)} if inside or dyad else {}
-    opened = [_place(o, packed) for o in kernel.outputs if dyad and o.array == dyad.array]
+    opened = [place_of(o, packed) for o in kernel.outputs if dyad and o.array == dyad.array]
     printed = print_calls(work, held, places=places | vector, fixed=fixed, opened=opened)
     arrays = ", ".join(f"*{a}" if head else a for a, head in text.outputs.items())
     first = len(entries) if inside and not dyad else 0
@@ -203,77 +198,23 @@ def body(kernel: Kernel, steps: dict[str, Step], printer: Printer, text: Functio
     if dyad:
         lines += [f"{dyad.vector[0][0]} = work[{start or ''}:{start + len(entries)}]"]
     lines += printed.lines
-    given = ", ".join(f"{a}: Array" for a in text.outputs)
-    taken = f"{rows_name(kernel.inputs)}: Rows, c: Constants, work: Array"
-    opening = [f"def _{kernel.name}({taken}, {given}) -> None:"]
-    if len(opening[0]) > 100:
-        opening = [f"def _{kernel.name}(", f"{INDENT}{taken}, {given}", ") -> None:"]
+    if kernel.plain:
+        arguments = ", ".join([rows_name(kernel.inputs), "c", "work", *text.outputs])
+        lines = [f"if _{kernel.name}_plain({arguments}):", f"{INDENT}return", *lines]
+    opening = heading(kernel, kernel.name, text, "None")
     opening += [f'{INDENT}"""{text.equation}"""']
     rows = max(most, printed.rows) - first + SPOKEN_FOR
     return Body("\n".join([*opening, *(INDENT + line for line in lines)]), rows)
 
 
-def _radial(kernel: Kernel) -> str:
-    """What the long way to the result ends in where there is no scale."""
-    way, gauge = kernel.ordinary, kernel.gauge
-    assert way is not None and gauge is not None
-    (long,) = (a.expr for a in kernel.body if a.name == way.result)
-    symbols = {s.name: s for s in long.free_symbols}
-    return str(long.xreplace({symbols[gauge.norm]: symbols[gauge.radius]}))
-
-
-def _two_ways(kernel: Kernel, own: list[Step], printer: Printer) -> list[str]:
-    """The form, and then the short way where it holds at every point, else the steps."""
-    way, gauge, (form, radial) = kernel.ordinary, kernel.gauge, own
-    assert way is not None and gauge is not None
-    needed = _used_outside(kernel, form.name)
-    names = ", ".join(name if name in needed else "_" for name in form.results)
-    given = rows_name(form.inputs)
-    (long,) = (a for a in kernel.body if a.name == way.result)
-    (call,) = _unscaled(long, kernel, printer)
-    again = f"_balanced(_{form.name}, {given}, c, s, form)"
-    return [
-        'with np.errstate(over="ignore", invalid="ignore"):',
-        f"{INDENT}form = _{form.name}({given}, c, s)",
-        f"{names} = form",
-        f"if _is_ordinary({gauge.square}, c):",
-        f"{INDENT}{way.result} = _ordinary_{way.result}({gauge.square}, c, s[{form.kept}:])",
-        "else:",
-        f"{INDENT}_, {gauge.norm}, {gauge.radius}, _ = {again}",
-        *(INDENT + line for line in _call(radial, kernel, form.kept)),
-        f"{INDENT}{way.result} = {call.operands[0]}",
-    ]
-
-
-def ordinary_functions(
-    kernels: tuple[Kernel, ...], steps: dict[str, Step], printer: Printer, scene: Scene
-) -> list[str]:
-    """The short way of the one kernel that has it, as a function, and where it holds as another."""
-    found = [kernel for kernel in kernels if kernel.ordinary]
-    if not found:
-        return []
-    (kernel,) = found
-    way, gauge = kernel.ordinary, kernel.gauge
-    assert way is not None and gauge is not None
-    radial = next(steps[a.step] for a in kernel.body if a.step not in ("", gauge.step))
-    work = [call for a in way.body for call in calls(a.name, a.expr, printer)]
-    row = radial.printed.row[_radial(kernel)]
-    printed = print_calls(work, {}, fixed={way.result: row}, kept=[way.result])
-    lines = [f"def _ordinary_{way.result}({gauge.square}: Array, c: Constants, s: Rows) -> Array:"]
-    lines += [f'{INDENT}"""{step_text("ordinary", scene)}"""']
-    lines += [INDENT + line for line in printed.lines] + [f"{INDENT}return {way.result}"]
-    used = {s.name for relation in way.within for s in relation.free_symbols}
-    limits = sorted({"tiny", "log_max"} & used)
-    tests = [" < ".join(printer.text(side) for side in r.args) for r in way.within]
-    tests = [tests[0], *(f"and {test}" for test in tests[1:])]
-    within = "\n".join(["(", *(INDENT * 2 + test for test in tests), f"{INDENT})"])
-    holds = template.ORDINARY.substitute(
-        square=gauge.square,
-        result=way.result,
-        limits="\n".join(f"{INDENT}{n} = {n.upper()}[{gauge.square}.dtype]" for n in limits),
-        within=within,
-    )
-    return [holds, "\n".join(lines)]
+def heading(kernel: Kernel, name: str, text: FunctionText, answer: str) -> list[str]:
+    """The first lines of a body."""
+    given = ", ".join(f"{a}: Array" for a in text.outputs)
+    taken = f"{rows_name(kernel.inputs)}: Rows, c: Constants, work: Array"
+    line = f"def _{name}({taken}, {given}) -> {answer}:"
+    if len(line) <= WIDTH:
+        return [line]
+    return [f"def _{name}(", f"{INDENT}{taken}, {given}", f") -> {answer}:"]
 
 
 def _before(step: Step, kernel: Kernel, printer: Printer) -> list[str]:
@@ -294,7 +235,7 @@ def _stay(entries: list[str], held: dict[str, int], work: list[Call]) -> bool:
     )
 
 
-def _packed(kernel: Kernel, text: FunctionText) -> int:
+def packed_size(kernel: Kernel, text: FunctionText) -> int:
     """The size of a matrix whose upper rows follow on, or 0."""
     array, size = _matrix(kernel)
     return size if array and len(text.outputs[array]) == 1 else 0
@@ -306,10 +247,16 @@ def _matrix(kernel: Kernel) -> tuple[str, int]:
     return (found[0].array, 1 + max(o.index[0] for o in found)) if found else ("", 0)
 
 
-def _calls(kernel: Kernel, printer: Printer, packed: int, known: set[str]) -> list[Call]:
+def arranged(
+    kernel: Kernel,
+    printer: Printer,
+    packed: int,
+    known: set[str],
+    after: Mapping[str, str] | None = None,
+) -> list[Call]:
     """What the body computes after the steps: each output as soon as it can be, the dyad last.
 
-    What is ``known``, the steps' inputs, is there already.
+    What is ``known``, the steps' inputs, is there already; text in ``after`` follows a name.
     """
     waiting = {a.name: a for a in kernel.body if not a.step and a.name not in known}
     work = list[Call]()
@@ -323,11 +270,13 @@ def _calls(kernel: Kernel, printer: Printer, packed: int, known: set[str]) -> li
                 settle([a.expr])
                 del waiting[a.name]
                 work.extend(_unscaled(a, kernel, printer) or calls(a.name, a.expr, printer))
+                if after and a.name in after:
+                    work.append(Call("", "", (after[a.name],), frozenset({a.name})))
 
     dyad = kernel.dyad
     for o in (o for o in kernel.outputs if not dyad or o.array != dyad.array):
         settle([o.expr])
-        work.extend(calls(_place(o, packed), o.expr, printer))
+        work.extend(calls(place_of(o, packed), o.expr, printer))
     if dyad:
         settle(map(symbol, (dyad.weight, *dyad.vector)))
         work.append(_products(kernel, packed))
@@ -387,10 +336,10 @@ def _added(
     """The calls that put a value beside the dyad, or in place of it."""
     (first, added), *_ = entries
     if not added:
-        return list(calls(_place(first, packed), extra, printer))
-    slot = f"{_place(first, packed)}.0"
-    places = [_place(o, packed) for o, _ in entries]
-    work = list(calls(slot, extra, printer))
+        return list(calls(place_of(first, packed), extra, printer))
+    slot = str(extra) if extra.is_Symbol else f"{place_of(first, packed)}.0"
+    places = [place_of(o, packed) for o, _ in entries]
+    work = [] if extra.is_Symbol else list(calls(slot, extra, printer))
     return work + [Call(p, "np.add", (p, slot), frozenset({slot, p})) for p in places]
 
 
@@ -418,7 +367,7 @@ def form_again(kernel: Kernel, steps: dict[str, Step], printer: Printer) -> list
     return [INDENT + line for line in lines]
 
 
-def _place(o: Output, packed: int = 0) -> str:
+def place_of(o: Output, packed: int = 0) -> str:
     """Where an output goes; ``packed`` is the size of a matrix whose upper rows follow on."""
     if packed and len(o.index) == 2:
         i, j = o.index

@@ -70,6 +70,7 @@ def print_constants(scene: Scene, kernels: tuple[Kernel, ...]) -> str:
         coupling=checks,
         derived=template.DERIVED.substitute(values="\n".join(values)) if derived else "",
     )
+    text += template.PLAIN if any(kernel.plain for kernel in kernels) else ""
     text += template.WORK_SHARE_TABLES if needs_work_share(kernels) else ""
     text += _of_moduli(scene, used) if scene.moduli else ""
     rod = "\n\n\nROD = Constants()\n" if all_have_values(scene, kernels) else ""

@@ -29,6 +29,7 @@ def header(
     statements = dict.fromkeys(s for kernel in kernels for s in kernel.statements())
     cited = "; ".join(_statement(s, verdicts) for s in statements)
     aim = f" for {target}" if target else ""
+    ordinarily = " where nothing is extreme" if any(kernel.plain for kernel in kernels) else ""
     noted = "paper label, verdict; as corrected if refuted" if verdicts else "paper label"
     lines = [
         f'"""{scene.summary}',
@@ -43,7 +44,7 @@ def header(
         "",
         f"Domain: {_domain(scene, kernels)}.",
         "",
-        "Operations a point: arithmetic, transcendental, energy shares, temporaries",
+        f"Operations a point{ordinarily}: arithmetic, transcendental, energy shares, temporaries",
     ]
     if not target:
         lines[-1:-1] = [*textwrap.wrap(ONE_POINT, WIDTH), ""]

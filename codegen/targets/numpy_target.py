@@ -16,10 +16,10 @@ from rodproof.codegen.scene import Scene
 from rodproof.codegen.targets import numpy_point as one
 from rodproof.codegen.targets import numpy_template as template
 from rodproof.codegen.targets.numpy_body import (
+    Body,
     Step,
     body,
     form_again,
-    ordinary_functions,
     spelling,
     step_function,
     steps_of,
@@ -32,6 +32,7 @@ from rodproof.codegen.targets.numpy_constants import (
     used_constants,
 )
 from rodproof.codegen.targets.numpy_header import header
+from rodproof.codegen.targets.numpy_plain import plain_body, plain_kernels, plain_record
 from rodproof.codegen.targets.printer import Printer, wrapped
 from rodproof.codegen.texts import FunctionText, function_text
 
@@ -45,24 +46,25 @@ def print_module(
     words = {kernel.name: function_text(kernel, scene) for kernel in kernels}
     printer = Printer(spelling(kernels))
     steps = steps_of(kernels, printer)
-    bodies = {k.name: body(k, steps, printer, words[k.name]) for k in kernels}
     named = spelling(kernels)
+    bodies = {k.name: _bodies(k, steps, printer, words[k.name], named) for k in kernels}
     points = {
         k.name: [one.point(k, words[k.name], scene, named, kernels)]
         for k in kernels
         if one.is_own(k)
     }
+    rows = max(b.rows for several in bodies.values() for b in several)
     limited = [kernel for kernel in kernels if kernel.limit]
     raising = bool(limited) and scene.at_limit == "raise"
     parts = [
         header(scene, kernels, verdicts or {})
         + "\n\n"
-        + _imports(scene, kernels, words, max(b.rows for b in bodies.values()), points),
+        + _imports(scene, kernels, words, rows, points),
         print_constants(scene, kernels),
+        *filter(None, [plain_record(kernels)]),
         *(step_function(step, scene) for step in steps.values()),
     ]
     parts += [template.BALANCED] if any(kernel.gauge for kernel in kernels) else []
-    parts += ordinary_functions(kernels, steps, printer, scene)
     parts += [template.WORK_SHARE] if needs_work_share(kernels) else []
     if limited:
         parts.append(template.RAISE if raising else template.NAN)
@@ -72,9 +74,23 @@ def print_module(
     default = " = ROD" if all_have_values(scene, kernels) else ""
     for kernel in kernels:
         text = words[kernel.name]
-        parts += [bodies[kernel.name].text, *points.get(kernel.name, [])]
+        parts += [*(b.text for b in bodies[kernel.name]), *points.get(kernel.name, [])]
         parts.append(_public(kernel, text, default))
     return "\n\n\n".join(part.strip("\n") for part in parts) + "\n"
+
+
+def _bodies(
+    kernel: Kernel,
+    steps: Mapping[str, Step],
+    printer: Printer,
+    text: FunctionText,
+    named: dict[str, str],
+) -> list[Body]:
+    """The private functions of a kernel: a plain one, and one that always holds."""
+    if not any(a.step for a in kernel.body):  # plain, and by itself
+        return [plain_body(kernel, text, named)]
+    plain = [plain_body(kernel.plain, text, named)] if kernel.plain else []
+    return [*plain, body(kernel, dict(steps), printer, text)]
 
 
 def _imports(
@@ -85,18 +101,17 @@ def _imports(
     points: Mapping[str, list[str]],
 ) -> str:
     """Imports, names of types, and the tables that the functions look things up in."""
-    derived = derived_constants(kernels)
+    derived, plain = derived_constants(kernels), plain_kernels(kernels)
     heads = {n: h for text in words.values() for n, h in (text.inputs | text.outputs).items()}
-    standard = ["from fractions import Fraction"] if derived else []
-    standard += ["from functools import cached_property"] if needs_work_share(kernels) else []
+    cached = needs_work_share(kernels) or plain
+    standard = ["from fractions import Fraction"] if derived or plain else []
+    standard += ["from functools import cached_property"] if cached else []
     single = "".join(text for texts in points.values() for text in texts)
     functions = [name for name in one.FUNCTIONS if re.search(rf"(?<!\w){name}\(", single)]
     standard += [f"from math import {', '.join(functions)}"] if functions else []
     used = {s.name for kernel in kernels for e in kernel.expressions() for s in e.free_symbols}
-    ways = [kernel.ordinary for kernel in kernels if kernel.ordinary]
-    used |= {s.name for way in ways for relation in way.within for s in relation.free_symbols}
     guards = [template.LOG_MAX] if "log_max" in used else []
-    if guards or "tiny" in used or any(kernel.gauge for kernel in kernels):
+    if guards or plain or "tiny" in used or any(kernel.gauge for kernel in kernels):
         guards = [template.TINY, *guards]
     guards += [one.LEAST] if "LEAST" in single else []
     guards += [one.LOG_MOST] if "LOG_MOST" in single else []
@@ -133,11 +148,10 @@ def _table(name: str, entries: Mapping[str, str]) -> str:
 def _plumbing(scene: Scene, *, raising: bool) -> list[str]:
     """The functions that take arrays in, run a body over blocks, and hand results out."""
     first = scene.layout == "first"
-    places = template.FIRST if first else template.LAST
     run = template.RUN_RAISE if raising else template.RUN
     whole = template.APPLY_FIRST if first else template.APPLY_LAST
     return [
-        template.ARGUMENTS.substitute(places, dtype=template.DTYPES[scene.precision]),
+        template.arguments(scene.layout, scene.precision),
         whole.substitute(run=run.substitute(outputs=template.OUTPUTS[scene.layout])),
     ]
 

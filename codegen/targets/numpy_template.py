@@ -98,6 +98,13 @@ $values
         )
 ''')
 
+PLAIN = '''
+    @cached_property
+    def plain(self) -> Plain:
+        """What the plain bodies take."""
+        return Plain(self)
+'''
+
 WORK_SHARE_TABLES = '''
     @cached_property
     def work_share(self) -> tuple[list[float], list[float], float, float, float]:
@@ -189,14 +196,6 @@ def _balanced(
         return values, np.maximum(size, tiny), radius, radius * radius
 '''
 
-ORDINARY = Template('''\
-def _is_ordinary($square: Array, c: Constants) -> bool:
-    """Whether `_ordinary_$result` holds at every point; nan is not ordinary."""
-$limits
-    least, most = float($square.min()), float($square.max())
-    return $within
-''')
-
 RAISE = '''\
 class _PastLimit(Exception):
     """Some strains have Q >= 1."""
@@ -230,7 +229,7 @@ $reduce
 ARGUMENTS = Template('''\
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
-    arrays = {name: np.asarray(value) for name, value in inputs.items()}
+$alike    arrays = {name: np.asarray(value) for name, value in inputs.items()}
     for name, array in arrays.items():
         head = HEADS[name]
         if array.dtype.kind not in "iuf" or array.shape[$leading] != head:
@@ -270,6 +269,22 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     return list(given)
 ''')
 
+#: Nothing is to be done where inputs are alike.
+ALIKE = Template("""\
+    ready = [*map(np.asarray, inputs.values())]
+    common, shape = ready[0].dtype, ready[0].shape[len(HEADS[next(iter(inputs))]) :]
+    if common $known and all(
+        a.dtype == common and a.shape == (*HEADS[name], *shape)
+        for name, a in zip(inputs, ready, strict=True)
+    ):
+        return ready, shape
+""")
+KNOWN_TYPE = {
+    "input": "in (np.float64, np.float32)",
+    "float32": "== np.float32",
+    "float64": "== np.float64",
+}
+
 #: How inputs are brought to (components, trailing shape), by layout.
 FIRST = {
     "leading": ": len(head)",
@@ -295,6 +310,14 @@ DTYPES = {
     "float64": "np.float64",
 }
 
+
+def arguments(layout: str, precision: str) -> str:
+    """The function that takes the inputs in."""
+    alike = ALIKE.substitute(known=KNOWN_TYPE[precision]) if layout == "first" else ""
+    places = FIRST if layout == "first" else LAST
+    return ARGUMENTS.substitute(places, dtype=DTYPES[precision], alike=alike)
+
+
 APPLY_FIRST = Template('''\
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
@@ -305,7 +328,7 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
@@ -320,6 +343,7 @@ def _apply(
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
             work = scratch[:, : part.stop - start]
+            rows = [row for a in given for row in a[:, part]]
 $run
     if not direct:
         for result, values in zip(results, flat, strict=True):
@@ -337,7 +361,7 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
@@ -353,6 +377,7 @@ def _apply(
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
             work = scratch[:, : part.stop - start]
+            rows = [row for a in given for row in a[:, part]]
             flat = [block[..., : part.stop - start] for block in made]
 $run
             for values, block in zip(whole, flat, strict=True):
@@ -366,9 +391,9 @@ $run
 #: The call of the body for each policy at the limit and layout, by how an output is written to.
 RUN_RAISE = Template("""\
             try:
-                body([row[part] for row in rows], c, work, *$outputs)
+                body(rows, c, work, *$outputs)
             except _PastLimit:
-                raise _past_limit(rows, c, shape) from None""")
+                raise _past_limit([row for a in given for row in a], c, shape) from None""")
 RUN = Template("""\
-            body([row[part] for row in rows], c, work, *$outputs)""")
+            body(rows, c, work, *$outputs)""")
 OUTPUTS = {"first": "(array[..., part] for array in flat)", "last": "flat"}

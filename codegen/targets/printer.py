@@ -101,7 +101,7 @@ class Printer:
             return f"np.sqrt({self.text(base)})", ATOM
         if exponent.is_Integer and exponent > 0:
             return f"{self.text(base, ATOM)}**{exponent}", POWER
-        if exponent.is_Integer:
+        if exponent.is_negative:
             return f"1 / {self.text(base ** (-exponent), POWER)}", PRODUCT
         raise TypeError(f"the NumPy printer refuses the power {expr}; use exp and log")
 

@@ -36,7 +36,6 @@ Inputs = dict[str, Given]
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
 ROWS = 14  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
-LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
 LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 HEADS = {"m": (3,), "n": (3,), "u": (3,), "v": (3,), "w_star": ()}
@@ -65,7 +64,6 @@ class Constants:
     per_beta: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
-    per_gamma: float = field(init=False, repr=False, compare=False)
     per_p: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -76,10 +74,9 @@ class Constants:
                 raise ValueError(f"Constants: {name} must be {rule}, not {value}")
             object.__setattr__(self, name, value)
         exact = (
-            Fraction(v)
-            for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota, self.gamma, self.p)
+            Fraction(v) for v in (self.alpha, self.beta, self.zeta, self.eta, self.iota, self.p)
         )
-        alpha, beta, zeta, eta, iota, gamma, p = exact
+        alpha, beta, zeta, eta, iota, p = exact
         if not beta**2 * eta**2 - iota**2 > 0:
             raise ValueError(
                 "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
@@ -94,13 +91,17 @@ class Constants:
             "per_beta": 1 / beta,
             "per_zeta": 1 / zeta,
             "per_eta": 1 / eta,
-            "per_gamma": 1 / gamma,
             "per_p": 1 / p,
         }
         for name, ratio in derived.items():  # exact, then rounded once
             if abs(ratio) >= 2**1023:
                 raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
             object.__setattr__(self, name, float(ratio))
+
+    @cached_property
+    def plain(self) -> Plain:
+        """What the plain bodies take."""
+        return Plain(self)
 
     @cached_property
     def work_share(self) -> tuple[list[float], list[float], float, float, float]:
@@ -125,6 +126,38 @@ class Constants:
             term *= (k + 1 - 2 * a) / (k + 1) / 9
         start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
         return fraction, powers, start, slope, single
+
+
+class Plain:
+    """What the plain bodies take, each number rounded once, and the squares where they hold."""
+
+    def __init__(self, c: Constants) -> None:
+        alpha, beta, gamma, zeta, eta, iota, p = (
+            Fraction(v) for v in (c.alpha, c.beta, c.gamma, c.zeta, c.eta, c.iota, c.p)
+        )
+        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
+        self.turn_load = _rounded(1 / beta**2 / gamma**2)
+        self.shear_load = _rounded(1 / gamma**2 / zeta**2)
+        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
+        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
+        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
+        self.bend_soft = _rounded(1 / alpha**2 / gamma)
+        self.turn_soft = _rounded(1 / beta**2 / gamma)
+        self.shear_soft = _rounded(1 / gamma / zeta**2)
+        self.untwist = _rounded(iota / beta**2)
+        self.per_p = _rounded(1 / p)
+        used = [v for v in vars(self).values() if v]
+        self.within_overload: dict[Any, tuple[float, float]] = {}
+        for kind, tiny in TINY.items():
+            span = tiny**-0.25
+            even = all(1 < abs(v) * span < span**2 for v in used)
+            overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
+            self.within_overload[kind] = overload if even else (1.0, 0.0)
+
+
+def _rounded(ratio: Fraction) -> float:
+    """The nearest float; nan far from the ordinary."""
+    return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
 def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
@@ -199,34 +232,6 @@ def _balanced(
         return values, np.maximum(size, tiny), radius, radius * radius
 
 
-def _is_ordinary(q_star: Array, c: Constants) -> bool:
-    """Whether `_ordinary_reach` holds at every point; nan is not ordinary."""
-    log_max = LOG_MAX[q_star.dtype]
-    tiny = TINY[q_star.dtype]
-    least, most = float(q_star.min()), float(q_star.max())
-    return (
-        2**60 * tiny < least
-        and 2**60 * tiny * most < 1
-        and c.gamma * tiny < c.per_gamma * least
-        and c.per_gamma * most < 64 * c.gamma
-        and 3 * c.p < log_max
-    )
-
-
-def _ordinary_reach(q_star: Array, c: Constants, s: Rows) -> Array:
-    """Strain over load where nothing is extreme, by (y/gamma)^p."""
-    scaled = np.multiply(c.per_gamma, q_star, out=s[0])
-    overload = np.multiply(c.per_gamma, scaled, out=s[0])
-    excess = np.log(overload, out=s[0])
-    excess *= 0.5 * c.p
-    np.exp(excess, out=excess)
-    reach = np.log1p(excess, out=s[3])
-    reach *= -c.per_p
-    np.exp(reach, out=reach)
-    reach *= c.per_gamma
-    return reach
-
-
 def _work_share(depth: Array, c: Constants) -> Array:
     """Stored energy over work, 1/2 2F1(1, 1/p; 1 + 2/p; 1 - exp(depth)), depth = -log(1 - x^p).
 
@@ -259,6 +264,13 @@ def _work_share(depth: Array, c: Constants) -> Array:
 
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
+    ready = [*map(np.asarray, inputs.values())]
+    common, shape = ready[0].dtype, ready[0].shape[len(HEADS[next(iter(inputs))]) :]
+    if common in (np.float64, np.float32) and all(
+        a.dtype == common and a.shape == (*HEADS[name], *shape)
+        for name, a in zip(inputs, ready, strict=True)
+    ):
+        return ready, shape
     arrays = {name: np.asarray(value) for name, value in inputs.items()}
     for name, array in arrays.items():
         head = HEADS[name]
@@ -308,7 +320,7 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
@@ -323,7 +335,8 @@ def _apply(
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
             work = scratch[:, : part.stop - start]
-            body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
+            rows = [row for a in given for row in a[:, part]]
+            body(rows, c, work, *(array[..., part] for array in flat))
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -353,18 +366,59 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
+def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> bool:
+    """`_strains` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3, n1, n2, n3 = loads
+    s = [*work[:4]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        extension = np.multiply(k.n3_extends, n3, out=s[0])
+        extension -= np.multiply(k.m3_extends, m3, out=s[1])
+        overload = np.square(m1, out=s[1])
+        overload += np.square(m2, out=s[2])
+        overload *= k.bend_load
+        np.square(extension, out=s[2])
+        s[2] *= k.slack
+        overload += s[2]
+        np.square(m3, out=s[2])
+        s[2] *= k.turn_load
+        overload += s[2]
+        np.square(n1, out=s[2])
+        s[2] += np.square(n2, out=s[3])
+        s[2] *= k.shear_load
+        overload += s[2]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[1])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    root = np.log1p(excess, out=s[1])
+    root *= -k.per_p
+    np.exp(root, out=root)
+    bend = np.multiply(k.bend_soft, root, out=s[2])
+    np.multiply(bend, m1, out=u[0])
+    np.multiply(bend, m2, out=u[1])
+    np.multiply(k.turn_soft, m3, out=u[2])
+    u[2] -= np.multiply(k.untwist, extension, out=s[2])
+    u[2] *= root
+    shear = np.multiply(k.shear_soft, root, out=s[2])
+    np.multiply(n1, shear, out=v[0])
+    np.multiply(n2, shear, out=v[1])
+    np.multiply(extension, root, out=v[2])
+    v[2] += 1
+    return True
+
+
 def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None:
     """(u, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n)."""
+    if _strains_plain(loads, c, work, u, v):
+        return
     s = [*u, *v, *work]
-    with np.errstate(over="ignore", invalid="ignore"):
-        form = _reduce_loads(loads, c, s)
-    mu_1, mu_2, nu_1, nu_2, dilatation, twist, q_star = form
-    if _is_ordinary(q_star, c):
-        reach = _ordinary_reach(q_star, c, s[8:])
-    else:
-        _, size, y, _ = _balanced(_reduce_loads, loads, c, s, form)
-        *_, factor = _soften(y, c, s[8:])
-        reach = factor if size is y else factor * y / size
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    mu_1, mu_2, nu_1, nu_2, dilatation, twist = values
+    *_, factor = _soften(y, c, s[8:])
+    reach = factor if size is y else factor * y / size
     bend = np.multiply(c.per_alpha, reach, out=s[6])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])

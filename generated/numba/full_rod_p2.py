@@ -87,8 +87,8 @@ class Values(NamedTuple):
     per_beta: float
     per_zeta: float
     per_eta: float
-    per_gamma: float
     per_gap: float
+    per_gamma: float
 
 
 @dataclass(frozen=True)
@@ -113,8 +113,8 @@ class Constants:
     per_beta: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
-    per_gamma: float = field(init=False, repr=False, compare=False)
     per_gap: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("alpha", "beta", "zeta", "eta", "iota", "gamma"):
@@ -141,8 +141,8 @@ class Constants:
             "per_beta": 1 / beta,
             "per_zeta": 1 / zeta,
             "per_eta": 1 / eta,
-            "per_gamma": 1 / gamma,
             "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
+            "per_gamma": 1 / gamma,
         }
         for name, ratio in derived.items():  # exact, then rounded once
             if abs(ratio) >= 2**1023:
@@ -167,8 +167,8 @@ class Constants:
             self.per_beta,
             self.per_zeta,
             self.per_eta,
-            self.per_gamma,
             self.per_gap,
+            self.per_gamma,
         )
 
 
@@ -1004,6 +1004,13 @@ def _stiffness_at_loads_over(m: Array, n: Array, c: Values, stiff: Array) -> tup
 
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
+    ready = [*map(np.asarray, inputs.values())]
+    common, shape = ready[0].dtype, ready[0].shape[len(HEADS[next(iter(inputs))]) :]
+    if common in (np.float64, np.float32) and all(
+        a.dtype == common and a.shape == (*HEADS[name], *shape)
+        for name, a in zip(inputs, ready, strict=True)
+    ):
+        return ready, shape
     arrays = {name: np.asarray(value) for name, value in inputs.items()}
     for name, array in arrays.items():
         head = HEADS[name]
@@ -1172,8 +1179,8 @@ def strains_and_gap(
     """Strains u, v under the loads m, n, and 1 - Q.
 
     m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
-    Answers u (3, ...) in 1/length, v (3, ...) plain, and the gap (...) plain: near the limit
-    it says what the strains no longer can.
+    Answers u (3, ...) in 1/length, v (3, ...) plain, and the gap (...) plain:
+    near the limit it says what the strains no longer can.
     """
     u, v, limit_gap = _apply(
         _strains_and_gap_over, {"m": m, "n": n}, constants, ("u", "v", "limit_gap"), out

@@ -19,16 +19,16 @@ One point: tuples of numbers (a float for a single component) are answered with 
 in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
 loads and stiffness near the limit, as far as the strains determine them.
 
-Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                42    4    0   16
-    loads                  35    4    0   15
+Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
+    strains                30    4    0    6
+    loads                  30    4    0    8
     stored_energy          29    4    1   12
     complementary_energy   37    6    1   13
-    stiffness              99    4    0   24
-    loads_and_stiffness   109    4    0   28
+    stiffness              83    4    0   12
+    loads_and_stiffness    87    4    0   14
     compliance            136    4    0   35
-    strains_and_gap        46    4    0   17
-    stiffness_at_loads    101    4    0   22
+    strains_and_gap        32    4    0    6
+    stiffness_at_loads     83    4    0   11
 """
 
 from __future__ import annotations
@@ -82,8 +82,8 @@ class Constants:
     per_beta: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
-    per_gamma: float = field(init=False, repr=False, compare=False)
     per_p: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("alpha", "beta", "zeta", "eta", "gamma", "p"):
@@ -100,13 +100,18 @@ class Constants:
             "per_beta": 1 / beta,
             "per_zeta": 1 / zeta,
             "per_eta": 1 / eta,
-            "per_gamma": 1 / gamma,
             "per_p": 1 / p,
+            "per_gamma": 1 / gamma,
         }
         for name, ratio in derived.items():  # exact, then rounded once
             if abs(ratio) >= 2**1023:
                 raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
             object.__setattr__(self, name, float(ratio))
+
+    @cached_property
+    def plain(self) -> Plain:
+        """What the plain bodies take."""
+        return Plain(self)
 
     @cached_property
     def work_share(self) -> tuple[list[float], list[float], float, float, float]:
@@ -131,6 +136,44 @@ class Constants:
             term *= (k + 1 - 2 * a) / (k + 1) / 9
         start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
         return fraction, powers, start, slope, single
+
+
+class Plain:
+    """What the plain bodies take, each number rounded once, and the squares where they hold."""
+
+    def __init__(self, c: Constants) -> None:
+        alpha, beta, gamma, zeta, eta, p = (
+            Fraction(v) for v in (c.alpha, c.beta, c.gamma, c.zeta, c.eta, c.p)
+        )
+        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
+        self.turn_load = _rounded(1 / beta**2 / gamma**2)
+        self.shear_load = _rounded(1 / gamma**2 / zeta**2)
+        self.slack = _rounded(eta**2)
+        self.n3_extends = _rounded(1 / eta**2 / gamma)
+        self.bend_soft = _rounded(1 / alpha**2 / gamma)
+        self.turn_soft = _rounded(1 / beta**2 / gamma)
+        self.shear_soft = _rounded(1 / gamma / zeta**2)
+        self.per_p = _rounded(1 / p)
+        self.bending = _rounded(alpha**2)
+        self.turning = _rounded(beta**2)
+        self.shearing = _rounded(zeta**2)
+        self.stretching = _rounded(eta**2)
+        self.per_gamma = _rounded(1 / gamma)
+        used = [v for v in (c.gamma, *vars(self).values()) if v]
+        self.within_overload: dict[Any, tuple[float, float]] = {}
+        self.within_q: dict[Any, tuple[float, float]] = {}
+        for kind, tiny in TINY.items():
+            span = tiny**-0.25
+            even = all(1 < abs(v) * span < span**2 for v in used)
+            overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
+            self.within_overload[kind] = overload if even else (1.0, 0.0)
+            q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
+            self.within_q[kind] = q if even else (1.0, 0.0)
+
+
+def _rounded(ratio: Fraction) -> float:
+    """The nearest float; nan far from the ordinary."""
+    return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
 def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
@@ -255,34 +298,6 @@ def _balanced(
         return values, np.maximum(size, tiny), radius, radius * radius
 
 
-def _is_ordinary(q_star: Array, c: Constants) -> bool:
-    """Whether `_ordinary_reach` holds at every point; nan is not ordinary."""
-    log_max = LOG_MAX[q_star.dtype]
-    tiny = TINY[q_star.dtype]
-    least, most = float(q_star.min()), float(q_star.max())
-    return (
-        2**60 * tiny < least
-        and 2**60 * tiny * most < 1
-        and c.gamma * tiny < c.per_gamma * least
-        and c.per_gamma * most < 64 * c.gamma
-        and 3 * c.p < log_max
-    )
-
-
-def _ordinary_reach(q_star: Array, c: Constants, s: Rows) -> Array:
-    """Strain over load where nothing is extreme, by (y/gamma)^p."""
-    scaled = np.multiply(c.per_gamma, q_star, out=s[0])
-    overload = np.multiply(c.per_gamma, scaled, out=s[0])
-    excess = np.log(overload, out=s[0])
-    excess *= 0.5 * c.p
-    np.exp(excess, out=excess)
-    reach = np.log1p(excess, out=s[3])
-    reach *= -c.per_p
-    np.exp(reach, out=reach)
-    reach *= c.per_gamma
-    return reach
-
-
 def _work_share(depth: Array, c: Constants) -> Array:
     """Stored energy over work, 1/2 2F1(1, 1/p; 1 + 2/p; 1 - exp(depth)), depth = -log(1 - x^p).
 
@@ -338,6 +353,13 @@ def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueErr
 
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
+    ready = [*map(np.asarray, inputs.values())]
+    common, shape = ready[0].dtype, ready[0].shape[len(HEADS[next(iter(inputs))]) :]
+    if common in (np.float64, np.float32) and all(
+        a.dtype == common and a.shape == (*HEADS[name], *shape)
+        for name, a in zip(inputs, ready, strict=True)
+    ):
+        return ready, shape
     arrays = {name: np.asarray(value) for name, value in inputs.items()}
     for name, array in arrays.items():
         head = HEADS[name]
@@ -387,7 +409,7 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
@@ -402,10 +424,11 @@ def _apply(
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
             work = scratch[:, : part.stop - start]
+            rows = [row for a in given for row in a[:, part]]
             try:
-                body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
+                body(rows, c, work, *(array[..., part] for array in flat))
             except _PastLimit:
-                raise _past_limit(rows, c, shape) from None
+                raise _past_limit([row for a in given for row in a], c, shape) from None
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -435,18 +458,57 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
+def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> bool:
+    """`_strains` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3, n1, n2, n3 = loads
+    s = [*work[:4]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        extension = np.multiply(k.n3_extends, n3, out=s[0])
+        overload = np.square(m1, out=s[1])
+        overload += np.square(m2, out=s[2])
+        overload *= k.bend_load
+        np.square(extension, out=s[2])
+        s[2] *= k.slack
+        overload += s[2]
+        np.square(m3, out=s[2])
+        s[2] *= k.turn_load
+        overload += s[2]
+        np.square(n1, out=s[2])
+        s[2] += np.square(n2, out=s[3])
+        s[2] *= k.shear_load
+        overload += s[2]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[1])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    root = np.log1p(excess, out=s[1])
+    root *= -k.per_p
+    np.exp(root, out=root)
+    bend = np.multiply(k.bend_soft, root, out=s[2])
+    np.multiply(bend, m1, out=u[0])
+    np.multiply(bend, m2, out=u[1])
+    np.multiply(k.turn_soft, m3, out=u[2])
+    u[2] *= root
+    shear = np.multiply(k.shear_soft, root, out=s[2])
+    np.multiply(n1, shear, out=v[0])
+    np.multiply(n2, shear, out=v[1])
+    np.multiply(extension, root, out=v[2])
+    v[2] += 1
+    return True
+
+
 def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None:
     """(u, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n)."""
+    if _strains_plain(loads, c, work, u, v):
+        return
     s = [*u, *v, *work]
-    with np.errstate(over="ignore", invalid="ignore"):
-        form = _reduce_loads(loads, c, s)
-    mu_1, mu_2, mu_3, nu_1, nu_2, nu_3, q_star = form
-    if _is_ordinary(q_star, c):
-        reach = _ordinary_reach(q_star, c, s[7:])
-    else:
-        _, size, y, _ = _balanced(_reduce_loads, loads, c, s, form)
-        *_, factor = _soften(y, c, s[7:])
-        reach = factor if size is y else factor * y / size
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    mu_1, mu_2, mu_3, nu_1, nu_2, nu_3 = values
+    *_, factor = _soften(y, c, s[7:])
+    reach = factor if size is y else factor * y / size
     bend = np.multiply(c.per_alpha, reach, out=s[6])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
@@ -498,8 +560,52 @@ def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -
     return u, v
 
 
+def _loads_plain(strains: Rows, c: Constants, work: Array, m: Array, n: Array) -> bool:
+    """`_loads` where nothing is extreme; else False."""
+    k = c.plain
+    u1, u2, u3, v1, v2, v3 = strains
+    s = [*work[:5]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        stretch = np.subtract(v3, 1, out=s[0])
+        slack_pull = np.multiply(k.slack, stretch, out=s[1])
+        q = np.square(u1, out=s[2])
+        q += np.square(u2, out=s[3])
+        q *= k.bending
+        np.square(v1, out=s[3])
+        s[3] += np.square(v2, out=s[4])
+        s[3] *= k.shearing
+        q += s[3]
+        q += np.multiply(slack_pull, stretch, out=s[0])
+        np.square(u3, out=s[0])
+        s[0] *= k.turning
+        q += s[0]
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[2])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[2])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    bend = np.multiply(k.bending, hard, out=s[0])
+    np.multiply(bend, u1, out=m[0])
+    np.multiply(bend, u2, out=m[1])
+    torque = np.multiply(k.turning, u3, out=s[0])
+    np.multiply(hard, torque, out=m[2])
+    shear = np.multiply(k.shearing, hard, out=s[0])
+    np.multiply(shear, v1, out=n[0])
+    np.multiply(shear, v2, out=n[1])
+    np.multiply(hard, slack_pull, out=n[2])
+    return True
+
+
 def _loads(strains: Rows, c: Constants, work: Array, m: Array, n: Array) -> None:
     """(m, n) = gamma (1 - Q^(p/2))^(-1/p) K (u, v - e3)."""
+    if _loads_plain(strains, c, work, m, n):
+        return
     s = [*m, *n, *work]
     rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -612,8 +718,65 @@ def complementary_energy(
     return w_star
 
 
+def _stiffness_plain(strains: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+    """`_stiffness` where nothing is extreme; else False."""
+    k = c.plain
+    u1, u2, u3, v1, v2, v3 = strains
+    s = [*work[:11]]
+    r = work[:6]
+    with np.errstate(over="ignore", invalid="ignore"):
+        np.multiply(k.turning, u3, out=r[2])
+        np.multiply(k.bending, u1, out=r[0])
+        np.multiply(k.bending, u2, out=r[1])
+        np.multiply(k.shearing, v1, out=r[3])
+        np.multiply(k.shearing, v2, out=r[4])
+        stretch = np.subtract(v3, 1, out=s[6])
+        slack_pull = np.multiply(k.slack, stretch, out=s[7])
+        r[5][...] = slack_pull
+        q = np.square(u1, out=s[8])
+        q += np.square(u2, out=s[9])
+        q *= k.bending
+        np.square(v1, out=s[9])
+        s[9] += np.square(v2, out=s[10])
+        s[9] *= k.shearing
+        q += s[9]
+        q += np.multiply(slack_pull, stretch, out=s[7])
+        np.square(u3, out=s[7])
+        s[7] *= k.turning
+        q += s[7]
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[7])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[6])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    steep = np.multiply(growth, hard, out=s[7])
+    steep /= q
+    for i in range(6):
+        np.multiply(steep, r[i], out=s[8])
+        np.multiply(s[8], r[i:], out=stiff[i, i:])
+    np.multiply(k.bending, hard, out=s[7])
+    stiff[0, 0] += s[7]
+    stiff[1, 1] += s[7]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[7])
+    np.multiply(k.shearing, hard, out=s[7])
+    stiff[3, 3] += s[7]
+    stiff[4, 4] += s[7]
+    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[6])
+    for i in range(1, 6):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u, v - e3)/x."""
+    if _stiffness_plain(strains, c, work, stiff):
+        return
     s = [*work]
     rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -673,10 +836,75 @@ def stiffness(u: Given, v: Given, constants: Constants, out: Array | None = None
     return stiff
 
 
+def _loads_and_stiffness_plain(
+    strains: Rows, c: Constants, work: Array, m: Array, n: Array, stiff: Array
+) -> bool:
+    """`_loads_and_stiffness` where nothing is extreme; else False."""
+    k = c.plain
+    u1, u2, u3, v1, v2, v3 = strains
+    s = [*work[:12]]
+    r = work[:6]
+    with np.errstate(over="ignore", invalid="ignore"):
+        stretch = np.subtract(v3, 1, out=s[6])
+        slack_pull = np.multiply(k.slack, stretch, out=s[7])
+        q = np.square(u1, out=s[8])
+        q += np.square(u2, out=s[9])
+        q *= k.bending
+        np.square(v1, out=s[9])
+        s[9] += np.square(v2, out=s[10])
+        s[9] *= k.shearing
+        q += s[9]
+        q += np.multiply(slack_pull, stretch, out=s[6])
+        np.square(u3, out=s[6])
+        s[6] *= k.turning
+        q += s[6]
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[6])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[9])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    bend = np.multiply(k.bending, hard, out=s[10])
+    np.multiply(bend, u1, out=m[0])
+    np.multiply(bend, u2, out=m[1])
+    np.multiply(k.turning, u3, out=r[2])
+    np.multiply(hard, r[2], out=m[2])
+    shear = np.multiply(k.shearing, hard, out=s[11])
+    np.multiply(shear, v1, out=n[0])
+    np.multiply(shear, v2, out=n[1])
+    r[5][...] = slack_pull
+    np.multiply(hard, r[5], out=n[2])
+    np.multiply(k.bending, u1, out=r[0])
+    np.multiply(k.bending, u2, out=r[1])
+    np.multiply(k.shearing, v1, out=r[3])
+    np.multiply(k.shearing, v2, out=r[4])
+    steep = np.multiply(growth, hard, out=s[6])
+    steep /= q
+    for i in range(6):
+        np.multiply(steep, r[i], out=s[8])
+        np.multiply(s[8], r[i:], out=stiff[i, i:])
+    stiff[0, 0] += bend
+    stiff[1, 1] += bend
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[10])
+    stiff[3, 3] += shear
+    stiff[4, 4] += shear
+    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[9])
+    for i in range(1, 6):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _loads_and_stiffness(
     strains: Rows, c: Constants, work: Array, m: Array, n: Array, stiff: Array
 ) -> None:
     """(m, n) = factor K (u, v - e3) and D^2 W = factor (K + growth t t^T), as apart."""
+    if _loads_and_stiffness_plain(strains, c, work, m, n, stiff):
+        return
     s = [*work]
     rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -894,10 +1122,58 @@ def compliance(m: Given, n: Given, constants: Constants, out: Array | None = Non
     return soft
 
 
+def _strains_and_gap_plain(
+    loads: Rows, c: Constants, work: Array, u: Array, v: Array, limit_gap: Array
+) -> bool:
+    """`_strains_and_gap` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3, n1, n2, n3 = loads
+    s = [*work[:4]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        extension = np.multiply(k.n3_extends, n3, out=s[0])
+        overload = np.square(m1, out=s[1])
+        overload += np.square(m2, out=s[2])
+        overload *= k.bend_load
+        np.square(extension, out=s[2])
+        s[2] *= k.slack
+        overload += s[2]
+        np.square(m3, out=s[2])
+        s[2] *= k.turn_load
+        overload += s[2]
+        np.square(n1, out=s[2])
+        s[2] += np.square(n2, out=s[3])
+        s[2] *= k.shear_load
+        overload += s[2]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[1])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    root = np.log1p(excess, out=s[2])
+    root *= -k.per_p
+    np.exp(root, out=root)
+    bend = np.multiply(k.bend_soft, root, out=s[3])
+    np.multiply(bend, m1, out=u[0])
+    np.multiply(bend, m2, out=u[1])
+    np.multiply(k.turn_soft, m3, out=u[2])
+    u[2] *= root
+    shear = np.multiply(k.shear_soft, root, out=s[3])
+    np.multiply(n1, shear, out=v[0])
+    np.multiply(n2, shear, out=v[1])
+    np.multiply(extension, root, out=v[2])
+    v[2] += 1
+    np.add(excess, 1, out=limit_gap)
+    np.divide(1, limit_gap, out=limit_gap)
+    return True
+
+
 def _strains_and_gap(
     loads: Rows, c: Constants, work: Array, u: Array, v: Array, limit_gap: Array
 ) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
+    if _strains_and_gap_plain(loads, c, work, u, v, limit_gap):
+        return
     s = [*work]
     values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, nu_1, nu_2, nu_3 = values
@@ -923,8 +1199,8 @@ def strains_and_gap(m: Given, n: Given, constants: Constants, out: Triple | None
     """Strains u, v under the loads m, n, and 1 - Q^(p/2).
 
     m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
-    Answers u (3, ...) in 1/length, v (3, ...) plain, and the gap (...) plain: near the limit
-    it says what the strains no longer can.
+    Answers u (3, ...) in 1/length, v (3, ...) plain, and the gap (...) plain:
+    near the limit it says what the strains no longer can.
     """
     if out is None and type(m) is type(n) is tuple:
         answer: Triple = _one(strains_and_gap, {"m": m, "n": n}, constants)
@@ -935,8 +1211,65 @@ def strains_and_gap(m: Given, n: Given, constants: Constants, out: Triple | None
     return u, v, limit_gap
 
 
+def _stiffness_at_loads_plain(loads: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+    """`_stiffness_at_loads` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3, n1, n2, n3 = loads
+    s = [*work[:9]]
+    h = work[:6]
+    with np.errstate(over="ignore", invalid="ignore"):
+        extension = np.multiply(k.n3_extends, n3, out=s[6])
+        overload = np.square(m1, out=s[7])
+        overload += np.square(m2, out=s[8])
+        overload *= k.bend_load
+        np.square(extension, out=s[6])
+        s[6] *= k.slack
+        overload += s[6]
+        np.square(m3, out=s[6])
+        s[6] *= k.turn_load
+        overload += s[6]
+        np.square(n1, out=s[6])
+        s[6] += np.square(n2, out=s[8])
+        s[6] *= k.shear_load
+        overload += s[6]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[6])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    hard = np.log1p(excess, out=s[8])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    lift = np.multiply(excess, hard, out=s[6])
+    lift /= overload
+    np.multiply(k.per_gamma, m1, out=h[0])
+    np.multiply(k.per_gamma, m2, out=h[1])
+    np.multiply(k.per_gamma, m3, out=h[2])
+    np.multiply(k.per_gamma, n1, out=h[3])
+    np.multiply(k.per_gamma, n2, out=h[4])
+    np.multiply(k.per_gamma, n3, out=h[5])
+    for i in range(6):
+        np.multiply(lift, h[i], out=s[7])
+        np.multiply(s[7], h[i:], out=stiff[i, i:])
+    np.multiply(k.bending, hard, out=s[6])
+    stiff[0, 0] += s[6]
+    stiff[1, 1] += s[6]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[6])
+    np.multiply(k.shearing, hard, out=s[6])
+    stiff[3, 3] += s[6]
+    stiff[4, 4] += s[6]
+    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[8])
+    for i in range(1, 6):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m, n)/y, y^2 = Q*."""
+    if _stiffness_at_loads_plain(loads, c, work, stiff):
+        return
     s = [*work]
     values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, nu_1, nu_2, nu_3 = values

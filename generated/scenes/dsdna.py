@@ -17,16 +17,16 @@ One point: tuples of numbers (a float for a single component) are answered with 
 in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
 loads and stiffness near the limit, as far as the strains determine them.
 
-Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                40    4    0   14
-    loads                  32    4    0   14
+Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
+    strains                28    4    0    5
+    loads                  26    4    0    7
     stored_energy          26    4    1   11
     complementary_energy   35    6    1   11
-    stiffness              70    4    0   21
-    loads_and_stiffness    77    4    0   24
+    stiffness              56    4    0   10
+    loads_and_stiffness    59    4    0   11
     compliance            108    4    0   31
-    strains_and_gap        44    4    0   15
-    stiffness_at_loads     71    4    0   18
+    strains_and_gap        30    4    0    5
+    stiffness_at_loads     55    4    0    9
 """
 
 from __future__ import annotations
@@ -83,9 +83,9 @@ class Constants:
     per_alpha: float = field(init=False, repr=False, compare=False)
     per_beta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
-    per_gamma: float = field(init=False, repr=False, compare=False)
     per_p: float = field(init=False, repr=False, compare=False)
     per_gap: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("alpha", "beta", "eta", "iota", "gamma", "p"):
@@ -111,14 +111,19 @@ class Constants:
             "per_alpha": 1 / alpha,
             "per_beta": 1 / beta,
             "per_eta": 1 / eta,
-            "per_gamma": 1 / gamma,
             "per_p": 1 / p,
             "per_gap": beta**2 * eta**2 / (beta**2 * eta**2 - iota**2),
+            "per_gamma": 1 / gamma,
         }
         for name, ratio in derived.items():  # exact, then rounded once
             if abs(ratio) >= 2**1023:
                 raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
             object.__setattr__(self, name, float(ratio))
+
+    @cached_property
+    def plain(self) -> Plain:
+        """What the plain bodies take."""
+        return Plain(self)
 
     @cached_property
     def work_share(self) -> tuple[list[float], list[float], float, float, float]:
@@ -168,6 +173,44 @@ class Constants:
             gamma=gamma,
             p=p,
         )
+
+
+class Plain:
+    """What the plain bodies take, each number rounded once, and the squares where they hold."""
+
+    def __init__(self, c: Constants) -> None:
+        alpha, beta, gamma, eta, iota, p = (
+            Fraction(v) for v in (c.alpha, c.beta, c.gamma, c.eta, c.iota, c.p)
+        )
+        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
+        self.turn_load = _rounded(1 / beta**2 / gamma**2)
+        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
+        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
+        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
+        self.bend_soft = _rounded(1 / alpha**2 / gamma)
+        self.turn_soft = _rounded(1 / beta**2 / gamma)
+        self.untwist = _rounded(iota / beta**2)
+        self.per_p = _rounded(1 / p)
+        self.bending = _rounded(alpha**2)
+        self.turning = _rounded(beta**2)
+        self.per_turning = _rounded(1 / beta**2)
+        self.stretching = _rounded(eta**2)
+        self.per_gamma = _rounded(1 / gamma)
+        used = [v for v in (c.gamma, c.iota, *vars(self).values()) if v]
+        self.within_overload: dict[Any, tuple[float, float]] = {}
+        self.within_q: dict[Any, tuple[float, float]] = {}
+        for kind, tiny in TINY.items():
+            span = tiny**-0.25
+            even = all(1 < abs(v) * span < span**2 for v in used)
+            overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
+            self.within_overload[kind] = overload if even else (1.0, 0.0)
+            q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
+            self.within_q[kind] = q if even else (1.0, 0.0)
+
+
+def _rounded(ratio: Fraction) -> float:
+    """The nearest float; nan far from the ordinary."""
+    return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
 def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
@@ -294,34 +337,6 @@ def _balanced(
         return values, np.maximum(size, tiny), radius, radius * radius
 
 
-def _is_ordinary(q_star: Array, c: Constants) -> bool:
-    """Whether `_ordinary_reach` holds at every point; nan is not ordinary."""
-    log_max = LOG_MAX[q_star.dtype]
-    tiny = TINY[q_star.dtype]
-    least, most = float(q_star.min()), float(q_star.max())
-    return (
-        2**60 * tiny < least
-        and 2**60 * tiny * most < 1
-        and c.gamma * tiny < c.per_gamma * least
-        and c.per_gamma * most < 64 * c.gamma
-        and 3 * c.p < log_max
-    )
-
-
-def _ordinary_reach(q_star: Array, c: Constants, s: Rows) -> Array:
-    """Strain over load where nothing is extreme, by (y/gamma)^p."""
-    scaled = np.multiply(c.per_gamma, q_star, out=s[0])
-    overload = np.multiply(c.per_gamma, scaled, out=s[0])
-    excess = np.log(overload, out=s[0])
-    excess *= 0.5 * c.p
-    np.exp(excess, out=excess)
-    reach = np.log1p(excess, out=s[3])
-    reach *= -c.per_p
-    np.exp(reach, out=reach)
-    reach *= c.per_gamma
-    return reach
-
-
 def _work_share(depth: Array, c: Constants) -> Array:
     """Stored energy over work, 1/2 2F1(1, 1/p; 1 + 2/p; 1 - exp(depth)), depth = -log(1 - x^p).
 
@@ -377,6 +392,13 @@ def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueErr
 
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
+    ready = [*map(np.asarray, inputs.values())]
+    common, shape = ready[0].dtype, ready[0].shape[len(HEADS[next(iter(inputs))]) :]
+    if common in (np.float64, np.float32) and all(
+        a.dtype == common and a.shape == (*HEADS[name], *shape)
+        for name, a in zip(inputs, ready, strict=True)
+    ):
+        return ready, shape
     arrays = {name: np.asarray(value) for name, value in inputs.items()}
     for name, array in arrays.items():
         head = HEADS[name]
@@ -426,7 +448,7 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
@@ -441,10 +463,11 @@ def _apply(
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
             work = scratch[:, : part.stop - start]
+            rows = [row for a in given for row in a[:, part]]
             try:
-                body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
+                body(rows, c, work, *(array[..., part] for array in flat))
             except _PastLimit:
-                raise _past_limit(rows, c, shape) from None
+                raise _past_limit([row for a in given for row in a], c, shape) from None
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -474,18 +497,52 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
+def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> bool:
+    """`_strains` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3, n3 = loads
+    s = [*work[:3]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        extension = np.multiply(k.n3_extends, n3, out=s[0])
+        extension -= np.multiply(k.m3_extends, m3, out=s[1])
+        overload = np.square(m1, out=s[1])
+        overload += np.square(m2, out=s[2])
+        overload *= k.bend_load
+        np.square(extension, out=s[2])
+        s[2] *= k.slack
+        overload += s[2]
+        np.square(m3, out=s[2])
+        s[2] *= k.turn_load
+        overload += s[2]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[1])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    root = np.log1p(excess, out=s[1])
+    root *= -k.per_p
+    np.exp(root, out=root)
+    bend = np.multiply(k.bend_soft, root, out=s[2])
+    np.multiply(bend, m1, out=u[0])
+    np.multiply(bend, m2, out=u[1])
+    np.multiply(k.turn_soft, m3, out=u[2])
+    u[2] -= np.multiply(k.untwist, extension, out=s[2])
+    u[2] *= root
+    np.multiply(extension, root, out=v3)
+    v3 += 1
+    return True
+
+
 def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> None:
     """(u, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n3)."""
+    if _strains_plain(loads, c, work, u, v3):
+        return
     s = [*u, v3, *work]
-    with np.errstate(over="ignore", invalid="ignore"):
-        form = _reduce_loads(loads, c, s)
-    mu_1, mu_2, _, dilatation, twist, _, q_star = form
-    if _is_ordinary(q_star, c):
-        reach = _ordinary_reach(q_star, c, s[7:])
-    else:
-        _, size, y, _ = _balanced(_reduce_loads, loads, c, s, form)
-        *_, factor = _soften(y, c, s[7:])
-        reach = factor if size is y else factor * y / size
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    mu_1, mu_2, _, dilatation, twist, _ = values
+    *_, factor = _soften(y, c, s[7:])
+    reach = factor if size is y else factor * y / size
     bend = np.multiply(c.per_alpha, reach, out=s[4])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
@@ -533,8 +590,48 @@ def strains(m: Given, n3: Given | float, constants: Constants, out: Pair | None 
     return u, v3
 
 
+def _loads_plain(strains: Rows, c: Constants, work: Array, m: Array, n3: Array) -> bool:
+    """`_loads` where nothing is extreme; else False."""
+    k = c.plain
+    u1, u2, u3, v3 = strains
+    s = [*work[:5]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        stretch = np.subtract(v3, 1, out=s[0])
+        torque = np.multiply(c.iota, stretch, out=s[1])
+        torque += np.multiply(k.turning, u3, out=s[2])
+        slack_pull = np.multiply(k.slack, stretch, out=s[2])
+        q = np.square(u1, out=s[3])
+        q += np.square(u2, out=s[4])
+        q *= k.bending
+        np.square(torque, out=s[4])
+        s[4] *= k.per_turning
+        q += s[4]
+        q += np.multiply(slack_pull, stretch, out=s[0])
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[3])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[3])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    bend = np.multiply(k.bending, hard, out=s[0])
+    np.multiply(bend, u1, out=m[0])
+    np.multiply(bend, u2, out=m[1])
+    np.multiply(hard, torque, out=m[2])
+    np.multiply(k.untwist, torque, out=n3)
+    np.add(slack_pull, n3, out=n3)
+    n3 *= hard
+    return True
+
+
 def _loads(strains: Rows, c: Constants, work: Array, m: Array, n3: Array) -> None:
     """(m, n3) = gamma (1 - Q^(p/2))^(-1/p) K (u, v3 - 1)."""
+    if _loads_plain(strains, c, work, m, n3):
+        return
     s = [*m, n3, *work]
     rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -640,8 +737,59 @@ def complementary_energy(
     return w_star
 
 
+def _stiffness_plain(strains: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+    """`_stiffness` where nothing is extreme; else False."""
+    k = c.plain
+    u1, u2, u3, v3 = strains
+    s = [*work[:8]]
+    r = work[:4]
+    with np.errstate(over="ignore", invalid="ignore"):
+        stretch = np.subtract(v3, 1, out=s[4])
+        np.multiply(c.iota, stretch, out=r[2])
+        r[2] += np.multiply(k.turning, u3, out=s[5])
+        np.multiply(k.bending, u1, out=r[0])
+        np.multiply(k.bending, u2, out=r[1])
+        slack_pull = np.multiply(k.slack, stretch, out=s[5])
+        np.multiply(k.untwist, r[2], out=r[3])
+        r[3] += slack_pull
+        q = np.square(u1, out=s[6])
+        q += np.square(u2, out=s[7])
+        q *= k.bending
+        np.square(r[2], out=s[7])
+        s[7] *= k.per_turning
+        q += s[7]
+        q += np.multiply(slack_pull, stretch, out=s[5])
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[5])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[4])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    steep = np.multiply(growth, hard, out=s[5])
+    steep /= q
+    for i in range(4):
+        np.multiply(steep, r[i], out=s[6])
+        np.multiply(s[6], r[i:], out=stiff[i, i:])
+    np.multiply(k.bending, hard, out=s[5])
+    stiff[0, 0] += s[5]
+    stiff[1, 1] += s[5]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
+    stiff[2, 3] += np.multiply(c.iota, hard, out=s[5])
+    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[4])
+    for i in range(1, 4):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u, v3 - 1)/x."""
+    if _stiffness_plain(strains, c, work, stiff):
+        return
     s = [*work]
     rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -696,10 +844,67 @@ def stiffness(u: Given, v3: Given | float, constants: Constants, out: Array | No
     return stiff
 
 
+def _loads_and_stiffness_plain(
+    strains: Rows, c: Constants, work: Array, m: Array, n3: Array, stiff: Array
+) -> bool:
+    """`_loads_and_stiffness` where nothing is extreme; else False."""
+    k = c.plain
+    u1, u2, u3, v3 = strains
+    s = [*work[:9]]
+    r = work[:4]
+    with np.errstate(over="ignore", invalid="ignore"):
+        stretch = np.subtract(v3, 1, out=s[4])
+        np.multiply(c.iota, stretch, out=r[2])
+        r[2] += np.multiply(k.turning, u3, out=s[5])
+        slack_pull = np.multiply(k.slack, stretch, out=s[5])
+        q = np.square(u1, out=s[6])
+        q += np.square(u2, out=s[7])
+        q *= k.bending
+        np.square(r[2], out=s[7])
+        s[7] *= k.per_turning
+        q += s[7]
+        q += np.multiply(slack_pull, stretch, out=s[4])
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[4])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[7])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    bend = np.multiply(k.bending, hard, out=s[8])
+    np.multiply(bend, u1, out=m[0])
+    np.multiply(bend, u2, out=m[1])
+    np.multiply(hard, r[2], out=m[2])
+    np.multiply(k.untwist, r[2], out=r[3])
+    r[3] += slack_pull
+    np.multiply(hard, r[3], out=n3)
+    np.multiply(k.bending, u1, out=r[0])
+    np.multiply(k.bending, u2, out=r[1])
+    steep = np.multiply(growth, hard, out=s[4])
+    steep /= q
+    for i in range(4):
+        np.multiply(steep, r[i], out=s[6])
+        np.multiply(s[6], r[i:], out=stiff[i, i:])
+    stiff[0, 0] += bend
+    stiff[1, 1] += bend
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[8])
+    stiff[2, 3] += np.multiply(c.iota, hard, out=s[8])
+    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[7])
+    for i in range(1, 4):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _loads_and_stiffness(
     strains: Rows, c: Constants, work: Array, m: Array, n3: Array, stiff: Array
 ) -> None:
     """(m, n3) = factor K (u, v3 - 1) and D^2 W = factor (K + growth t t^T), as apart."""
+    if _loads_and_stiffness_plain(strains, c, work, m, n3, stiff):
+        return
     s = [*work]
     rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -888,10 +1093,53 @@ def compliance(
     return soft
 
 
+def _strains_and_gap_plain(
+    loads: Rows, c: Constants, work: Array, u: Array, v3: Array, limit_gap: Array
+) -> bool:
+    """`_strains_and_gap` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3, n3 = loads
+    s = [*work[:4]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        extension = np.multiply(k.n3_extends, n3, out=s[0])
+        extension -= np.multiply(k.m3_extends, m3, out=s[1])
+        overload = np.square(m1, out=s[1])
+        overload += np.square(m2, out=s[2])
+        overload *= k.bend_load
+        np.square(extension, out=s[2])
+        s[2] *= k.slack
+        overload += s[2]
+        np.square(m3, out=s[2])
+        s[2] *= k.turn_load
+        overload += s[2]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[1])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    root = np.log1p(excess, out=s[2])
+    root *= -k.per_p
+    np.exp(root, out=root)
+    bend = np.multiply(k.bend_soft, root, out=s[3])
+    np.multiply(bend, m1, out=u[0])
+    np.multiply(bend, m2, out=u[1])
+    np.multiply(k.turn_soft, m3, out=u[2])
+    u[2] -= np.multiply(k.untwist, extension, out=s[3])
+    u[2] *= root
+    np.multiply(extension, root, out=v3)
+    v3 += 1
+    np.add(excess, 1, out=limit_gap)
+    np.divide(1, limit_gap, out=limit_gap)
+    return True
+
+
 def _strains_and_gap(
     loads: Rows, c: Constants, work: Array, u: Array, v3: Array, limit_gap: Array
 ) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
+    if _strains_and_gap_plain(loads, c, work, u, v3, limit_gap):
+        return
     s = [*work]
     values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, _, dilatation, twist, _ = values
@@ -916,8 +1164,8 @@ def strains_and_gap(
     """Strains u, v3 under the loads m, n3, and 1 - Q^(p/2).
 
     m (3, ...) in force times length, n3 (...) in force, with Q*^(1/2) finite.
-    Answers u (3, ...) in 1/length, v3 (...) plain, and the gap (...) plain: near the limit
-    it says what the strains no longer can.
+    Answers u (3, ...) in 1/length, v3 (...) plain, and the gap (...) plain:
+    near the limit it says what the strains no longer can.
     """
     if out is None and type(m) is tuple and type(n3) is float:
         answer: Triple = _one(strains_and_gap, {"m": m, "n3": n3}, constants)
@@ -928,8 +1176,58 @@ def strains_and_gap(
     return u, v3, limit_gap
 
 
+def _stiffness_at_loads_plain(loads: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+    """`_stiffness_at_loads` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3, n3 = loads
+    s = [*work[:7]]
+    h = work[:4]
+    with np.errstate(over="ignore", invalid="ignore"):
+        extension = np.multiply(k.n3_extends, n3, out=s[4])
+        extension -= np.multiply(k.m3_extends, m3, out=s[5])
+        overload = np.square(m1, out=s[5])
+        overload += np.square(m2, out=s[6])
+        overload *= k.bend_load
+        np.square(extension, out=s[4])
+        s[4] *= k.slack
+        overload += s[4]
+        np.square(m3, out=s[4])
+        s[4] *= k.turn_load
+        overload += s[4]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[4])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    hard = np.log1p(excess, out=s[6])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    lift = np.multiply(excess, hard, out=s[4])
+    lift /= overload
+    np.multiply(k.per_gamma, m1, out=h[0])
+    np.multiply(k.per_gamma, m2, out=h[1])
+    np.multiply(k.per_gamma, m3, out=h[2])
+    np.multiply(k.per_gamma, n3, out=h[3])
+    for i in range(4):
+        np.multiply(lift, h[i], out=s[5])
+        np.multiply(s[5], h[i:], out=stiff[i, i:])
+    np.multiply(k.bending, hard, out=s[4])
+    stiff[0, 0] += s[4]
+    stiff[1, 1] += s[4]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[4])
+    stiff[2, 3] += np.multiply(c.iota, hard, out=s[4])
+    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[6])
+    for i in range(1, 4):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m, n3)/y, y^2 = Q*."""
+    if _stiffness_at_loads_plain(loads, c, work, stiff):
+        return
     s = [*work]
     values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, _, _, nu_3 = values

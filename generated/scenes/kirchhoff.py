@@ -17,16 +17,16 @@ One point: tuples of numbers (a float for a single component) are answered with 
 in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
 loads and stiffness near the limit, as far as the strains determine them.
 
-Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                27    4    0   11
-    loads                  20    4    0    9
+Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
+    strains                16    4    0    4
+    loads                  17    4    0    5
     stored_energy          19    4    1    8
     complementary_energy   28    6    1   10
-    stiffness              45    4    0   15
-    loads_and_stiffness    50    4    0   17
+    stiffness              36    4    0    7
+    loads_and_stiffness    38    4    0    8
     compliance             64    4    0   22
-    strains_and_gap        31    4    0   12
-    stiffness_at_loads     48    4    0   14
+    strains_and_gap        18    4    0    4
+    stiffness_at_loads     35    4    0    7
 """
 
 from __future__ import annotations
@@ -73,8 +73,8 @@ class Constants:
     p: float
     per_alpha: float = field(init=False, repr=False, compare=False)
     per_beta: float = field(init=False, repr=False, compare=False)
-    per_gamma: float = field(init=False, repr=False, compare=False)
     per_p: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("alpha", "beta", "gamma", "p"):
@@ -86,13 +86,18 @@ class Constants:
         derived = {
             "per_alpha": 1 / alpha,
             "per_beta": 1 / beta,
-            "per_gamma": 1 / gamma,
             "per_p": 1 / p,
+            "per_gamma": 1 / gamma,
         }
         for name, ratio in derived.items():  # exact, then rounded once
             if abs(ratio) >= 2**1023:
                 raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
             object.__setattr__(self, name, float(ratio))
+
+    @cached_property
+    def plain(self) -> Plain:
+        """What the plain bodies take."""
+        return Plain(self)
 
     @cached_property
     def work_share(self) -> tuple[list[float], list[float], float, float, float]:
@@ -117,6 +122,36 @@ class Constants:
             term *= (k + 1 - 2 * a) / (k + 1) / 9
         start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
         return fraction, powers, start, slope, single
+
+
+class Plain:
+    """What the plain bodies take, each number rounded once, and the squares where they hold."""
+
+    def __init__(self, c: Constants) -> None:
+        alpha, beta, gamma, p = (Fraction(v) for v in (c.alpha, c.beta, c.gamma, c.p))
+        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
+        self.turn_load = _rounded(1 / beta**2 / gamma**2)
+        self.bend_soft = _rounded(1 / alpha**2 / gamma)
+        self.turn_soft = _rounded(1 / beta**2 / gamma)
+        self.per_p = _rounded(1 / p)
+        self.bending = _rounded(alpha**2)
+        self.turning = _rounded(beta**2)
+        self.per_gamma = _rounded(1 / gamma)
+        used = [v for v in (c.gamma, *vars(self).values()) if v]
+        self.within_overload: dict[Any, tuple[float, float]] = {}
+        self.within_q: dict[Any, tuple[float, float]] = {}
+        for kind, tiny in TINY.items():
+            span = tiny**-0.25
+            even = all(1 < abs(v) * span < span**2 for v in used)
+            overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
+            self.within_overload[kind] = overload if even else (1.0, 0.0)
+            q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
+            self.within_q[kind] = q if even else (1.0, 0.0)
+
+
+def _rounded(ratio: Fraction) -> float:
+    """The nearest float; nan far from the ordinary."""
+    return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
 def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
@@ -229,34 +264,6 @@ def _balanced(
         return values, np.maximum(size, tiny), radius, radius * radius
 
 
-def _is_ordinary(q_star: Array, c: Constants) -> bool:
-    """Whether `_ordinary_reach` holds at every point; nan is not ordinary."""
-    log_max = LOG_MAX[q_star.dtype]
-    tiny = TINY[q_star.dtype]
-    least, most = float(q_star.min()), float(q_star.max())
-    return (
-        2**60 * tiny < least
-        and 2**60 * tiny * most < 1
-        and c.gamma * tiny < c.per_gamma * least
-        and c.per_gamma * most < 64 * c.gamma
-        and 3 * c.p < log_max
-    )
-
-
-def _ordinary_reach(q_star: Array, c: Constants, s: Rows) -> Array:
-    """Strain over load where nothing is extreme, by (y/gamma)^p."""
-    scaled = np.multiply(c.per_gamma, q_star, out=s[0])
-    overload = np.multiply(c.per_gamma, scaled, out=s[0])
-    excess = np.log(overload, out=s[0])
-    excess *= 0.5 * c.p
-    np.exp(excess, out=excess)
-    reach = np.log1p(excess, out=s[3])
-    reach *= -c.per_p
-    np.exp(reach, out=reach)
-    reach *= c.per_gamma
-    return reach
-
-
 def _work_share(depth: Array, c: Constants) -> Array:
     """Stored energy over work, 1/2 2F1(1, 1/p; 1 + 2/p; 1 - exp(depth)), depth = -log(1 - x^p).
 
@@ -311,6 +318,13 @@ def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueErr
 
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
+    ready = [*map(np.asarray, inputs.values())]
+    common, shape = ready[0].dtype, ready[0].shape[len(HEADS[next(iter(inputs))]) :]
+    if common in (np.float64, np.float32) and all(
+        a.dtype == common and a.shape == (*HEADS[name], *shape)
+        for name, a in zip(inputs, ready, strict=True)
+    ):
+        return ready, shape
     arrays = {name: np.asarray(value) for name, value in inputs.items()}
     for name, array in arrays.items():
         head = HEADS[name]
@@ -360,7 +374,7 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
@@ -375,10 +389,11 @@ def _apply(
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
             work = scratch[:, : part.stop - start]
+            rows = [row for a in given for row in a[:, part]]
             try:
-                body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
+                body(rows, c, work, *(array[..., part] for array in flat))
             except _PastLimit:
-                raise _past_limit(rows, c, shape) from None
+                raise _past_limit([row for a in given for row in a], c, shape) from None
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -408,18 +423,44 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
+def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array) -> bool:
+    """`_strains` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3 = loads
+    s = [*work[:2]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        overload = np.square(m1, out=s[0])
+        overload += np.square(m2, out=s[1])
+        overload *= k.bend_load
+        np.square(m3, out=s[1])
+        s[1] *= k.turn_load
+        overload += s[1]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[0])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    root = np.log1p(excess, out=s[0])
+    root *= -k.per_p
+    np.exp(root, out=root)
+    bend = np.multiply(k.bend_soft, root, out=s[1])
+    np.multiply(bend, m1, out=u[0])
+    np.multiply(bend, m2, out=u[1])
+    np.multiply(k.turn_soft, m3, out=u[2])
+    u[2] *= root
+    return True
+
+
 def _strains(loads: Rows, c: Constants, work: Array, u: Array) -> None:
     """u = (gamma^p + Q*^(p/2))^(-1/p) K^-1 m."""
+    if _strains_plain(loads, c, work, u):
+        return
     s = [*u, *work]
-    with np.errstate(over="ignore", invalid="ignore"):
-        form = _reduce_loads(loads, c, s)
-    mu_1, mu_2, mu_3, q_star = form
-    if _is_ordinary(q_star, c):
-        reach = _ordinary_reach(q_star, c, s[4:])
-    else:
-        _, size, y, _ = _balanced(_reduce_loads, loads, c, s, form)
-        *_, factor = _soften(y, c, s[4:])
-        reach = factor if size is y else factor * y / size
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    mu_1, mu_2, mu_3 = values
+    *_, factor = _soften(y, c, s[4:])
+    reach = factor if size is y else factor * y / size
     bend = np.multiply(c.per_alpha, reach, out=s[3])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
@@ -462,8 +503,41 @@ def strains(m: Given, constants: Constants, out: Array | None = None) -> Array:
     return u
 
 
+def _loads_plain(strains: Rows, c: Constants, work: Array, m: Array) -> bool:
+    """`_loads` where nothing is extreme; else False."""
+    k = c.plain
+    u1, u2, u3 = strains
+    s = [*work[:2]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        q = np.square(u1, out=s[0])
+        q += np.square(u2, out=s[1])
+        q *= k.bending
+        np.square(u3, out=s[1])
+        s[1] *= k.turning
+        q += s[1]
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[0])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[0])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    bend = np.multiply(k.bending, hard, out=s[1])
+    np.multiply(bend, u1, out=m[0])
+    np.multiply(bend, u2, out=m[1])
+    torque = np.multiply(k.turning, u3, out=s[1])
+    np.multiply(hard, torque, out=m[2])
+    return True
+
+
 def _loads(strains: Rows, c: Constants, work: Array, m: Array) -> None:
     """m = gamma (1 - Q^(p/2))^(-1/p) K u."""
+    if _loads_plain(strains, c, work, m):
+        return
     s = [*m, *work]
     with np.errstate(over="ignore", invalid="ignore"):
         kappa_1, kappa_2, kappa_3, q = _reduce_strains(strains, c, s)
@@ -558,8 +632,51 @@ def complementary_energy(m: Given, constants: Constants, out: Array | None = Non
     return w_star
 
 
+def _stiffness_plain(strains: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+    """`_stiffness` where nothing is extreme; else False."""
+    k = c.plain
+    u1, u2, u3 = strains
+    s = [*work[:6]]
+    r = work[:3]
+    with np.errstate(over="ignore", invalid="ignore"):
+        np.multiply(k.turning, u3, out=r[2])
+        np.multiply(k.bending, u1, out=r[0])
+        np.multiply(k.bending, u2, out=r[1])
+        q = np.square(u1, out=s[3])
+        q += np.square(u2, out=s[4])
+        q *= k.bending
+        np.square(u3, out=s[4])
+        s[4] *= k.turning
+        q += s[4]
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[4])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[5])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    steep = np.multiply(growth, hard, out=s[4])
+    steep /= q
+    for i in range(3):
+        np.multiply(steep, r[i], out=s[3])
+        np.multiply(s[3], r[i:], out=stiff[i, i:])
+    np.multiply(k.bending, hard, out=s[4])
+    stiff[0, 0] += s[4]
+    stiff[1, 1] += s[4]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
+    for i in range(1, 3):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K u/x."""
+    if _stiffness_plain(strains, c, work, stiff):
+        return
     s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
         kappa_1, kappa_2, kappa_3, q = _reduce_strains(strains, c, s)
@@ -609,8 +726,56 @@ def stiffness(u: Given, constants: Constants, out: Array | None = None) -> Array
     return stiff
 
 
+def _loads_and_stiffness_plain(
+    strains: Rows, c: Constants, work: Array, m: Array, stiff: Array
+) -> bool:
+    """`_loads_and_stiffness` where nothing is extreme; else False."""
+    k = c.plain
+    u1, u2, u3 = strains
+    s = [*work[:7]]
+    r = work[:3]
+    with np.errstate(over="ignore", invalid="ignore"):
+        q = np.square(u1, out=s[3])
+        q += np.square(u2, out=s[4])
+        q *= k.bending
+        np.square(u3, out=s[4])
+        s[4] *= k.turning
+        q += s[4]
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[4])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[5])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    bend = np.multiply(k.bending, hard, out=s[6])
+    np.multiply(bend, u1, out=m[0])
+    np.multiply(bend, u2, out=m[1])
+    np.multiply(k.turning, u3, out=r[2])
+    np.multiply(hard, r[2], out=m[2])
+    np.multiply(k.bending, u1, out=r[0])
+    np.multiply(k.bending, u2, out=r[1])
+    steep = np.multiply(growth, hard, out=s[4])
+    steep /= q
+    for i in range(3):
+        np.multiply(steep, r[i], out=s[3])
+        np.multiply(s[3], r[i:], out=stiff[i, i:])
+    stiff[0, 0] += bend
+    stiff[1, 1] += bend
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
+    for i in range(1, 3):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _loads_and_stiffness(strains: Rows, c: Constants, work: Array, m: Array, stiff: Array) -> None:
     """m = factor K u and D^2 W = factor (K + growth t t^T), as apart."""
+    if _loads_and_stiffness_plain(strains, c, work, m, stiff):
+        return
     s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
         kappa_1, kappa_2, kappa_3, q = _reduce_strains(strains, c, s)
@@ -754,8 +919,43 @@ def compliance(m: Given, constants: Constants, out: Array | None = None) -> Arra
     return soft
 
 
+def _strains_and_gap_plain(
+    loads: Rows, c: Constants, work: Array, u: Array, limit_gap: Array
+) -> bool:
+    """`_strains_and_gap` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3 = loads
+    s = [*work[:3]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        overload = np.square(m1, out=s[0])
+        overload += np.square(m2, out=s[1])
+        overload *= k.bend_load
+        np.square(m3, out=s[1])
+        s[1] *= k.turn_load
+        overload += s[1]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[0])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    root = np.log1p(excess, out=s[1])
+    root *= -k.per_p
+    np.exp(root, out=root)
+    bend = np.multiply(k.bend_soft, root, out=s[2])
+    np.multiply(bend, m1, out=u[0])
+    np.multiply(bend, m2, out=u[1])
+    np.multiply(k.turn_soft, m3, out=u[2])
+    u[2] *= root
+    np.add(excess, 1, out=limit_gap)
+    np.divide(1, limit_gap, out=limit_gap)
+    return True
+
+
 def _strains_and_gap(loads: Rows, c: Constants, work: Array, u: Array, limit_gap: Array) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
+    if _strains_and_gap_plain(loads, c, work, u, limit_gap):
+        return
     s = [*work]
     values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3 = values
@@ -775,8 +975,8 @@ def strains_and_gap(m: Given, constants: Constants, out: Pair | None = None) -> 
     """Strains u under the loads m, and 1 - Q^(p/2).
 
     m (3, ...) in force times length, with Q*^(1/2) finite.
-    Answers u (3, ...) in 1/length, and the gap (...) plain: near the limit
-    it says what the strains no longer can.
+    Answers u (3, ...) in 1/length, and the gap (...) plain:
+    near the limit it says what the strains no longer can.
     """
     if out is None and type(m) is tuple:
         answer: Pair = _one(strains_and_gap, {"m": m}, constants)
@@ -785,8 +985,50 @@ def strains_and_gap(m: Given, constants: Constants, out: Pair | None = None) -> 
     return u, limit_gap
 
 
+def _stiffness_at_loads_plain(loads: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+    """`_stiffness_at_loads` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3 = loads
+    s = [*work[:6]]
+    h = work[:3]
+    with np.errstate(over="ignore", invalid="ignore"):
+        overload = np.square(m1, out=s[3])
+        overload += np.square(m2, out=s[4])
+        overload *= k.bend_load
+        np.square(m3, out=s[4])
+        s[4] *= k.turn_load
+        overload += s[4]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[4])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    hard = np.log1p(excess, out=s[5])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    lift = np.multiply(excess, hard, out=s[4])
+    lift /= overload
+    np.multiply(k.per_gamma, m1, out=h[0])
+    np.multiply(k.per_gamma, m2, out=h[1])
+    np.multiply(k.per_gamma, m3, out=h[2])
+    for i in range(3):
+        np.multiply(lift, h[i], out=s[3])
+        np.multiply(s[3], h[i:], out=stiff[i, i:])
+    np.multiply(k.bending, hard, out=s[4])
+    stiff[0, 0] += s[4]
+    stiff[1, 1] += s[4]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
+    for i in range(1, 3):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) m/y, y^2 = Q*."""
+    if _stiffness_at_loads_plain(loads, c, work, stiff):
+        return
     s = [*work]
     values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3 = values

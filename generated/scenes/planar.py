@@ -17,16 +17,16 @@ One point: tuples of numbers (a float for a single component) are answered with 
 in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
 loads and stiffness near the limit, as far as the strains determine them.
 
-Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                29    4    0   12
-    loads                  22    4    0   11
+Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
+    strains                19    4    0    6
+    loads                  19    4    0    7
     stored_energy          20    4    1    9
     complementary_energy   28    6    1   10
-    stiffness              47    4    0   17
-    loads_and_stiffness    53    4    0   20
+    stiffness              37    4    0    9
+    loads_and_stiffness    40    4    0   11
     compliance             64    4    0   22
-    strains_and_gap        33    4    0   13
-    stiffness_at_loads     49    4    0   15
+    strains_and_gap        21    4    0    6
+    stiffness_at_loads     37    4    0    8
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ class Constants:
     per_alpha: float = field(init=False, repr=False, compare=False)
     per_zeta: float = field(init=False, repr=False, compare=False)
     per_eta: float = field(init=False, repr=False, compare=False)
-    per_gamma: float = field(init=False, repr=False, compare=False)
     per_p: float = field(init=False, repr=False, compare=False)
+    per_gamma: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in ("alpha", "zeta", "eta", "gamma", "p"):
@@ -92,13 +92,18 @@ class Constants:
             "per_alpha": 1 / alpha,
             "per_zeta": 1 / zeta,
             "per_eta": 1 / eta,
-            "per_gamma": 1 / gamma,
             "per_p": 1 / p,
+            "per_gamma": 1 / gamma,
         }
         for name, ratio in derived.items():  # exact, then rounded once
             if abs(ratio) >= 2**1023:
                 raise ValueError(f"Constants: {name} leaves the range of floating point numbers")
             object.__setattr__(self, name, float(ratio))
+
+    @cached_property
+    def plain(self) -> Plain:
+        """What the plain bodies take."""
+        return Plain(self)
 
     @cached_property
     def work_share(self) -> tuple[list[float], list[float], float, float, float]:
@@ -123,6 +128,39 @@ class Constants:
             term *= (k + 1 - 2 * a) / (k + 1) / 9
         start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
         return fraction, powers, start, slope, single
+
+
+class Plain:
+    """What the plain bodies take, each number rounded once, and the squares where they hold."""
+
+    def __init__(self, c: Constants) -> None:
+        alpha, gamma, zeta, eta, p = (Fraction(v) for v in (c.alpha, c.gamma, c.zeta, c.eta, c.p))
+        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
+        self.shear_load = _rounded(1 / gamma**2 / zeta**2)
+        self.slack = _rounded(eta**2)
+        self.n3_extends = _rounded(1 / eta**2 / gamma)
+        self.bend_soft = _rounded(1 / alpha**2 / gamma)
+        self.shear_soft = _rounded(1 / gamma / zeta**2)
+        self.per_p = _rounded(1 / p)
+        self.bending = _rounded(alpha**2)
+        self.shearing = _rounded(zeta**2)
+        self.stretching = _rounded(eta**2)
+        self.per_gamma = _rounded(1 / gamma)
+        used = [v for v in (c.gamma, *vars(self).values()) if v]
+        self.within_overload: dict[Any, tuple[float, float]] = {}
+        self.within_q: dict[Any, tuple[float, float]] = {}
+        for kind, tiny in TINY.items():
+            span = tiny**-0.25
+            even = all(1 < abs(v) * span < span**2 for v in used)
+            overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
+            self.within_overload[kind] = overload if even else (1.0, 0.0)
+            q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
+            self.within_q[kind] = q if even else (1.0, 0.0)
+
+
+def _rounded(ratio: Fraction) -> float:
+    """The nearest float; nan far from the ordinary."""
+    return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
 def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
@@ -235,34 +273,6 @@ def _balanced(
         return values, np.maximum(size, tiny), radius, radius * radius
 
 
-def _is_ordinary(q_star: Array, c: Constants) -> bool:
-    """Whether `_ordinary_reach` holds at every point; nan is not ordinary."""
-    log_max = LOG_MAX[q_star.dtype]
-    tiny = TINY[q_star.dtype]
-    least, most = float(q_star.min()), float(q_star.max())
-    return (
-        2**60 * tiny < least
-        and 2**60 * tiny * most < 1
-        and c.gamma * tiny < c.per_gamma * least
-        and c.per_gamma * most < 64 * c.gamma
-        and 3 * c.p < log_max
-    )
-
-
-def _ordinary_reach(q_star: Array, c: Constants, s: Rows) -> Array:
-    """Strain over load where nothing is extreme, by (y/gamma)^p."""
-    scaled = np.multiply(c.per_gamma, q_star, out=s[0])
-    overload = np.multiply(c.per_gamma, scaled, out=s[0])
-    excess = np.log(overload, out=s[0])
-    excess *= 0.5 * c.p
-    np.exp(excess, out=excess)
-    reach = np.log1p(excess, out=s[3])
-    reach *= -c.per_p
-    np.exp(reach, out=reach)
-    reach *= c.per_gamma
-    return reach
-
-
 def _work_share(depth: Array, c: Constants) -> Array:
     """Stored energy over work, 1/2 2F1(1, 1/p; 1 + 2/p; 1 - exp(depth)), depth = -log(1 - x^p).
 
@@ -318,6 +328,13 @@ def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueErr
 
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
+    ready = [*map(np.asarray, inputs.values())]
+    common, shape = ready[0].dtype, ready[0].shape[len(HEADS[next(iter(inputs))]) :]
+    if common in (np.float64, np.float32) and all(
+        a.dtype == common and a.shape == (*HEADS[name], *shape)
+        for name, a in zip(inputs, ready, strict=True)
+    ):
+        return ready, shape
     arrays = {name: np.asarray(value) for name, value in inputs.items()}
     for name, array in arrays.items():
         head = HEADS[name]
@@ -367,7 +384,7 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    rows = [row for array in arrays for row in array.reshape(-1, max(points, 1))]
+    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
@@ -382,10 +399,11 @@ def _apply(
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
             work = scratch[:, : part.stop - start]
+            rows = [row for a in given for row in a[:, part]]
             try:
-                body([row[part] for row in rows], c, work, *(array[..., part] for array in flat))
+                body(rows, c, work, *(array[..., part] for array in flat))
             except _PastLimit:
-                raise _past_limit(rows, c, shape) from None
+                raise _past_limit([row for a in given for row in a], c, shape) from None
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -415,18 +433,48 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
+def _strains_plain(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> bool:
+    """`_strains` where nothing is extreme; else False."""
+    k = c.plain
+    m2, n1, n3 = loads
+    s = [*work[:3]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        extension = np.multiply(k.n3_extends, n3, out=s[0])
+        overload = np.square(m2, out=s[1])
+        overload *= k.bend_load
+        np.square(extension, out=s[2])
+        s[2] *= k.slack
+        overload += s[2]
+        np.square(n1, out=s[2])
+        s[2] *= k.shear_load
+        overload += s[2]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[1])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    root = np.log1p(excess, out=s[1])
+    root *= -k.per_p
+    np.exp(root, out=root)
+    bend = np.multiply(k.bend_soft, root, out=s[2])
+    np.multiply(bend, m2, out=u2)
+    shear = np.multiply(k.shear_soft, root, out=s[2])
+    np.multiply(n1, shear, out=v[0])
+    np.multiply(extension, root, out=v[1])
+    v[1] += 1
+    return True
+
+
 def _strains(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> None:
     """(u2, v1, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m2, n1, n3)."""
+    if _strains_plain(loads, c, work, u2, v):
+        return
     s = [u2, *v, *work]
-    with np.errstate(over="ignore", invalid="ignore"):
-        form = _reduce_loads(loads, c, s)
-    mu_2, nu_1, nu_3, q_star = form
-    if _is_ordinary(q_star, c):
-        reach = _ordinary_reach(q_star, c, s[4:])
-    else:
-        _, size, y, _ = _balanced(_reduce_loads, loads, c, s, form)
-        *_, factor = _soften(y, c, s[4:])
-        reach = factor if size is y else factor * y / size
+    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    mu_2, nu_1, nu_3 = values
+    *_, factor = _soften(y, c, s[4:])
+    reach = factor if size is y else factor * y / size
     bend = np.multiply(c.per_alpha, reach, out=s[3])
     np.multiply(bend, mu_2, out=u2)
     shear = np.multiply(c.per_zeta, reach, out=s[3])
@@ -471,8 +519,43 @@ def strains(m2: Given | float, n: Given, constants: Constants, out: Pair | None 
     return u2, v
 
 
+def _loads_plain(strains: Rows, c: Constants, work: Array, m2: Array, n: Array) -> bool:
+    """`_loads` where nothing is extreme; else False."""
+    k = c.plain
+    u2, v1, v3 = strains
+    s = [*work[:4]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        stretch = np.subtract(v3, 1, out=s[0])
+        slack_pull = np.multiply(k.slack, stretch, out=s[1])
+        q = np.square(u2, out=s[2])
+        q *= k.bending
+        np.square(v1, out=s[3])
+        s[3] *= k.shearing
+        q += s[3]
+        q += np.multiply(slack_pull, stretch, out=s[0])
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[2])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[2])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    bend = np.multiply(k.bending, hard, out=s[0])
+    np.multiply(bend, u2, out=m2)
+    shear = np.multiply(k.shearing, hard, out=s[0])
+    np.multiply(shear, v1, out=n[0])
+    np.multiply(hard, slack_pull, out=n[1])
+    return True
+
+
 def _loads(strains: Rows, c: Constants, work: Array, m2: Array, n: Array) -> None:
     """(m2, n1, n3) = gamma (1 - Q^(p/2))^(-1/p) K (u2, v1, v3 - 1)."""
+    if _loads_plain(strains, c, work, m2, n):
+        return
     s = [m2, *n, *work]
     rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -575,8 +658,52 @@ def complementary_energy(
     return w_star
 
 
+def _stiffness_plain(strains: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+    """`_stiffness` where nothing is extreme; else False."""
+    k = c.plain
+    u2, v1, v3 = strains
+    s = [*work[:7]]
+    r = work[:3]
+    with np.errstate(over="ignore", invalid="ignore"):
+        np.multiply(k.bending, u2, out=r[0])
+        np.multiply(k.shearing, v1, out=r[1])
+        stretch = np.subtract(v3, 1, out=s[3])
+        slack_pull = np.multiply(k.slack, stretch, out=s[4])
+        r[2][...] = slack_pull
+        q = np.square(u2, out=s[5])
+        q *= k.bending
+        np.square(v1, out=s[6])
+        s[6] *= k.shearing
+        q += s[6]
+        q += np.multiply(slack_pull, stretch, out=s[4])
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[4])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[3])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    steep = np.multiply(growth, hard, out=s[4])
+    steep /= q
+    for i in range(3):
+        np.multiply(steep, r[i], out=s[5])
+        np.multiply(s[5], r[i:], out=stiff[i, i:])
+    stiff[0, 0] += np.multiply(k.bending, hard, out=s[4])
+    stiff[1, 1] += np.multiply(k.shearing, hard, out=s[4])
+    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[3])
+    for i in range(1, 3):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u2, v1, v3 - 1)/x."""
+    if _stiffness_plain(strains, c, work, stiff):
+        return
     s = [*work]
     rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -627,10 +754,61 @@ def stiffness(u2: Given | float, v: Given, constants: Constants, out: Array | No
     return stiff
 
 
+def _loads_and_stiffness_plain(
+    strains: Rows, c: Constants, work: Array, m2: Array, n: Array, stiff: Array
+) -> bool:
+    """`_loads_and_stiffness` where nothing is extreme; else False."""
+    k = c.plain
+    u2, v1, v3 = strains
+    s = [*work[:9]]
+    r = work[:3]
+    with np.errstate(over="ignore", invalid="ignore"):
+        stretch = np.subtract(v3, 1, out=s[3])
+        slack_pull = np.multiply(k.slack, stretch, out=s[4])
+        q = np.square(u2, out=s[5])
+        q *= k.bending
+        np.square(v1, out=s[6])
+        s[6] *= k.shearing
+        q += s[6]
+        q += np.multiply(slack_pull, stretch, out=s[3])
+    low, high = k.within_q[q.dtype]
+    if not (low < q.min() and q.max() < high):
+        return False
+    growth = np.log(q, out=s[3])
+    growth *= -0.5 * c.p
+    np.expm1(growth, out=growth)
+    np.divide(1, growth, out=growth)
+    hard = np.log1p(growth, out=s[6])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    bend = np.multiply(k.bending, hard, out=s[7])
+    np.multiply(bend, u2, out=m2)
+    shear = np.multiply(k.shearing, hard, out=s[8])
+    np.multiply(shear, v1, out=n[0])
+    r[2][...] = slack_pull
+    np.multiply(hard, r[2], out=n[1])
+    np.multiply(k.bending, u2, out=r[0])
+    np.multiply(k.shearing, v1, out=r[1])
+    steep = np.multiply(growth, hard, out=s[3])
+    steep /= q
+    for i in range(3):
+        np.multiply(steep, r[i], out=s[5])
+        np.multiply(s[5], r[i:], out=stiff[i, i:])
+    stiff[0, 0] += bend
+    stiff[1, 1] += shear
+    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[6])
+    for i in range(1, 3):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _loads_and_stiffness(
     strains: Rows, c: Constants, work: Array, m2: Array, n: Array, stiff: Array
 ) -> None:
     """(m2, n1, n3) = factor K (u2, v1, v3 - 1) and D^2 W = factor (K + growth t t^T), as apart."""
+    if _loads_and_stiffness_plain(strains, c, work, m2, n, stiff):
+        return
     s = [*work]
     rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -783,10 +961,49 @@ def compliance(
     return soft
 
 
+def _strains_and_gap_plain(
+    loads: Rows, c: Constants, work: Array, u2: Array, v: Array, limit_gap: Array
+) -> bool:
+    """`_strains_and_gap` where nothing is extreme; else False."""
+    k = c.plain
+    m2, n1, n3 = loads
+    s = [*work[:4]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        extension = np.multiply(k.n3_extends, n3, out=s[0])
+        overload = np.square(m2, out=s[1])
+        overload *= k.bend_load
+        np.square(extension, out=s[2])
+        s[2] *= k.slack
+        overload += s[2]
+        np.square(n1, out=s[2])
+        s[2] *= k.shear_load
+        overload += s[2]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[1])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    root = np.log1p(excess, out=s[2])
+    root *= -k.per_p
+    np.exp(root, out=root)
+    bend = np.multiply(k.bend_soft, root, out=s[3])
+    np.multiply(bend, m2, out=u2)
+    shear = np.multiply(k.shear_soft, root, out=s[3])
+    np.multiply(n1, shear, out=v[0])
+    np.multiply(extension, root, out=v[1])
+    v[1] += 1
+    np.add(excess, 1, out=limit_gap)
+    np.divide(1, limit_gap, out=limit_gap)
+    return True
+
+
 def _strains_and_gap(
     loads: Rows, c: Constants, work: Array, u2: Array, v: Array, limit_gap: Array
 ) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
+    if _strains_and_gap_plain(loads, c, work, u2, v, limit_gap):
+        return
     s = [*work]
     values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values
@@ -810,8 +1027,8 @@ def strains_and_gap(
     """Strains u2, v under the loads m2, n, and 1 - Q^(p/2).
 
     m2 (...) in force times length, n (2, ...) in force (n1 and n3), with Q*^(1/2) finite.
-    Answers u2 (...) in 1/length, v (2, ...) plain (v1 and v3), and the gap (...) plain: near the limit
-    it says what the strains no longer can.
+    Answers u2 (...) in 1/length, v (2, ...) plain (v1 and v3), and the gap (...) plain:
+    near the limit it says what the strains no longer can.
     """
     if out is None and type(n) is tuple and type(m2) is float:
         answer: Triple = _one(strains_and_gap, {"m2": m2, "n": n}, constants)
@@ -822,8 +1039,52 @@ def strains_and_gap(
     return u2, v, limit_gap
 
 
+def _stiffness_at_loads_plain(loads: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+    """`_stiffness_at_loads` where nothing is extreme; else False."""
+    k = c.plain
+    m2, n1, n3 = loads
+    s = [*work[:6]]
+    h = work[:3]
+    with np.errstate(over="ignore", invalid="ignore"):
+        extension = np.multiply(k.n3_extends, n3, out=s[3])
+        overload = np.square(m2, out=s[4])
+        overload *= k.bend_load
+        np.square(extension, out=s[3])
+        s[3] *= k.slack
+        overload += s[3]
+        np.square(n1, out=s[3])
+        s[3] *= k.shear_load
+        overload += s[3]
+    low, high = k.within_overload[overload.dtype]
+    if not (low < overload.min() and overload.max() < high):
+        return False
+    excess = np.log(overload, out=s[3])
+    excess *= 0.5 * c.p
+    np.exp(excess, out=excess)
+    hard = np.log1p(excess, out=s[5])
+    hard *= k.per_p
+    np.exp(hard, out=hard)
+    hard *= c.gamma
+    lift = np.multiply(excess, hard, out=s[3])
+    lift /= overload
+    np.multiply(k.per_gamma, m2, out=h[0])
+    np.multiply(k.per_gamma, n1, out=h[1])
+    np.multiply(k.per_gamma, n3, out=h[2])
+    for i in range(3):
+        np.multiply(lift, h[i], out=s[4])
+        np.multiply(s[4], h[i:], out=stiff[i, i:])
+    stiff[0, 0] += np.multiply(k.bending, hard, out=s[3])
+    stiff[1, 1] += np.multiply(k.shearing, hard, out=s[3])
+    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[5])
+    for i in range(1, 3):
+        stiff[i, :i] = stiff[:i, i]
+    return True
+
+
 def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m2, n1, n3)/y, y^2 = Q*."""
+    if _stiffness_at_loads_plain(loads, c, work, stiff):
+        return
     s = [*work]
     values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values

@@ -10,16 +10,18 @@ import pytest
 import sympy as sp
 
 from rodproof.codegen import generate, lower, scene
+from rodproof.codegen.count import cost
 from rodproof.codegen.kernel import (
     Assignment,
     Kernel,
     KernelError,
     Output,
-    ordinarily,
     symbol,
     validate,
 )
+from rodproof.codegen.passes import plain as plain_rules
 from rodproof.codegen.passes.order import order
+from rodproof.codegen.passes.specialise import drop_dead
 from rodproof.codegen.targets.mpmath_target import Evaluator, LimitError
 from rodproof.derivations.symbols import CONSTANTS as CONSTANT_SYMBOLS
 from rodproof.derivations.symbols import LOADS, STRAINS, p
@@ -160,25 +162,53 @@ def test_validate_and_order_refuse_nonsense() -> None:
         validate(twice, KNOWN)
 
 
-SHORT = [n for n in NAMES if STABLE[n].ordinary]
+PLAIN = [n for n in NAMES if n in plain_rules.PLAIN]
+TWO = {"p": 2}
 
 
-@pytest.mark.parametrize("constants", CONSTANTS, ids=["p=3.3", "p=0.85"])
-@pytest.mark.parametrize("name", SHORT)
-def test_short_way_is_an_identity(name: str, constants: dict) -> None:
-    """The kernel for ordinary points alone, without gauge, norm and radius, is the derivation."""
-    short = order(ordinarily(STABLE[name]))
-    assert short.gauge is None
-    assert not {"size", "y"} & {s.name for e in short.expressions() for s in e.free_symbols}
-    assert distance(values(NAIVE[name], constants), values(short, constants)) < 1e-46
+def plain_of(name: str, *, square: bool) -> Kernel:
+    found = plain_rules.plain(NAIVE[name], square=square)
+    assert found is not None
+    return order(drop_dead(found))
+
+
+@pytest.mark.parametrize("constants", [*CONSTANTS, CONSTANTS[0] | TWO], ids=["3.3", "0.85", "2"])
+@pytest.mark.parametrize("name", PLAIN)
+def test_plain_kernel_is_an_identity(name: str, constants: dict) -> None:
+    """Without gauge, limit, norm and radius it is the derivation; every assignment matters."""
+    plain = plain_of(name, square=constants["p"] == 2)
+    assert plain.gauge is None
+    assert plain.limit is None
+    assert not {"size", "x", "y"} & {s.name for e in plain.expressions() for s in e.free_symbols}
+    assert distance(values(NAIVE[name], constants), values(plain, constants)) < 1e-46
     survivors = []
-    for k, a in enumerate(short.body):
+    for k, a in enumerate(plain.body):
         twin = replace(a, expr=2 * a.expr)
-        wrong = replace(short, body=(*short.body[:k], twin, *short.body[k + 1 :]))
-        if distance(values(short, constants), values(wrong, constants)) < 1e-46:
+        wrong = replace(plain, body=(*plain.body[:k], twin, *plain.body[k + 1 :]))
+        if distance(values(plain, constants), values(wrong, constants)) < 1e-46:
             survivors.append(a.name)
     assert not survivors
 
 
-def test_the_strains_have_a_short_way() -> None:
-    assert SHORT == ["strains"]
+def test_plain_kernels_take_fewer_operations() -> None:
+    """In every committed scene, and no plain kernel has a guard."""
+    for own in map(scene.committed, scene.committed_names()):
+        for kernel in generate.kernels(own):
+            if kernel.plain is None:
+                continue
+            assert not any(
+                e.has(sp.Max, sp.Min, sp.Piecewise) for e in kernel.plain.expressions()
+            ), kernel.name
+            guarded = replace(kernel, plain=None)
+            assert calls_of(kernel.plain) < calls_of(guarded), (own.name, kernel.name)
+
+
+def calls_of(kernel: Kernel) -> int:
+    """How many operations a target that takes one at a time carries out."""
+    found = cost(kernel)
+    return found.arithmetic + found.transcendental
+
+
+def test_functions_without_a_plain_kernel() -> None:
+    """The energies' cost is their share; the compliance keeps its sums of squares everywhere."""
+    assert set(NAMES) - set(PLAIN) == {"stored_energy", "complementary_energy", "compliance"}

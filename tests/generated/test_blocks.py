@@ -146,7 +146,8 @@ def test_limit_as_nan_in_any_block() -> None:
     bad = np.isin(np.arange(3 * BLOCK), (BLOCK + 2, 3 * BLOCK - 1))
     for mine, want in zip(got, good, strict=True):
         assert np.isnan(mine[:, bad]).all()
-        assert np.array_equal(mine[:, ~bad], want[:, ~bad])
+        # a block with such a point in it is worked on with care throughout
+        np.testing.assert_allclose(mine[..., ~bad], want[..., ~bad], rtol=1e-12, atol=1e-15)
 
 
 def test_threads_do_not_meet() -> None:
