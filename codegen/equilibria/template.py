@@ -66,6 +66,17 @@ def _matrix(size: int, entries: Sequence[tuple[int, int]], values: Numbers) -> A
         if i < size:
             out[i, j] = value
     return out
+
+
+def _first(bad: Number, name: str, values: Numbers) -> str:
+    """These rows of the first state that is refused, and of many states, which and how many."""
+    place = tuple(map(int, np.argwhere(bad)[0]))
+    numbers = ", ".join(repr(float(np.asarray(value)[place])) for value in values)
+    said = f"{name} = {numbers}"
+    if not place:
+        return said
+    where = f"state[:, {', '.join(map(str, place))}]"
+    return f"{said} in {where}, the first of {np.sum(bad)} such of {np.size(bad)} states"
 '''
 
 DIRECTORS = '''\
@@ -86,17 +97,39 @@ def _loads_at(
             "a state of 10 rows needs the force; one of 13 carries it in its last three"
             f" (here: {len(x)} rows, force {'not ' if force is None else ''}given)"
         )
+    _has_a_norm(x[:4])
     d = _frame(x[:4])
     n = x[10:] if force is None else _field("force", force, s)
     return x[:4], x[4:7], d, _in_directors(d, n)
 
 
+def _has_a_norm(q: Numbers) -> None:
+    """Refuses a quaternion whose squared norm is zero or no float; one with a nan passes."""
+    if isinstance(q[0], float):
+        square: Number = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
+        if 1e-300 < square < 1e300:
+            return
+    else:
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+            square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
+    bad = np.less_equal(square, 1e-300) | np.greater_equal(square, 1e300)
+    if np.any(bad):
+        raise ValueError(
+            f"the quaternion of the frame needs 1e-150 < |q| < 1e150: {_first(bad, 'q', q)}; any"
+            " multiple of q is the same frame, divide it by its norm. If an integrator made it, its"
+            " step was too large, ask for a smaller max_step or tolerance"
+        )
+
+
 def frame(state: ArrayLike) -> Array:
     """The directors, (3, 3, ...): column k - 1 is d_k in the fixed basis.
 
-    state (10, ...) or (13, ...) as in `rates`; its quaternion need not be of norm one.
+    state (10, ...) or (13, ...) as in `rates`; its quaternion need not be of norm one, but between
+    1e-150 and 1e150 (ValueError).
     """
-    d = _stack(_frame(_rows("state", state, (10, 13))[:4]))
+    q = _rows("state", state, (10, 13))[:4]
+    _has_a_norm(q)
+    d = _stack(_frame(q))
     return d.reshape(3, 3, *d.shape[1:]).swapaxes(0, 1)
 
 
@@ -120,7 +153,7 @@ def rates(
 
     s is the place, a number or an array; state holds in its rows
 
-        0 to 3    q, the quaternion of the frame: not zero, its norm is kept and plays no part
+        0 to 3    q, the quaternion of the frame: its norm is kept and plays no part
         4 to 6    m, the couple in the directors, force times length
         7 to 9    r, the center line in the fixed basis
         10 to 12  n, the force in the fixed basis, where the state carries it
@@ -133,7 +166,8 @@ def rates(
 
         fun = lambda s, x: rates(s, x, constants, force)
 
-    Raises ValueError for other shapes, and for a force both given and carried.
+    Raises ValueError for other shapes, for a force both given and carried, and for a quaternion of
+    a norm outside 1e-150 to 1e150, with the first such state; a state with a nan has rates of nan.
     """
     q, m, d, n = _loads_at(s, state, force)
     carried = force is None
@@ -180,6 +214,8 @@ def _at(
     """Rows, sines and cosines, couple, force in the intermediate frame, thrust; checked."""
     x = _rows("state", state, (6, 9))
     one = isinstance(x[1], float)
+    if one and not (math.isfinite(x[0]) and math.isfinite(x[1])):
+        raise ValueError(f"the angles phi = {x[0]!r} and theta = {x[1]!r} must be finite")
     sin, cos = (math.sin, math.cos) if one else (np.sin, np.cos)
     angles = sin(x[1]), cos(x[1]), sin(x[0]), cos(x[0])
     _off_the_pole(x[1], angles[0])
@@ -192,13 +228,11 @@ def _off_the_pole(theta: Number, sine: Number) -> None:
     """Refuses sin(theta) = 0, as far as theta as a float can tell, where phi' is not determined."""
     if isinstance(theta, float) and abs(sine) > max(2**-51 * abs(theta), 2.0**-1000):
         return
-    bound = np.maximum(2**-51 * np.abs(theta), 2.0**-1000)
-    bad = np.flatnonzero(~(np.abs(sine) > bound))
-    if bad.size:
-        first = np.ravel(theta)[bad[0]]
+    bad = ~(np.abs(sine) > np.maximum(2**-51 * np.abs(theta), 2.0**-1000))
+    if np.any(bad):
         raise ValueError(
-            f"Euler angles are singular at sin(theta) = 0: {bad.size} of {np.size(theta)} states"
-            f" are there, the first with theta = {first!r}; the module directors has no such place"
+            f"Euler angles are singular at sin(theta) = 0: {_first(bad, 'theta', [theta])};"
+            " the module directors has no such place"
         )
 
 

@@ -765,12 +765,25 @@ def _matrix(size: int, entries: Sequence[tuple[int, int]], values: Numbers) -> A
     return out
 
 
+def _first(bad: Number, name: str, values: Numbers) -> str:
+    """These rows of the first state that is refused, and of many states, which and how many."""
+    place = tuple(map(int, np.argwhere(bad)[0]))
+    numbers = ", ".join(repr(float(np.asarray(value)[place])) for value in values)
+    said = f"{name} = {numbers}"
+    if not place:
+        return said
+    where = f"state[:, {', '.join(map(str, place))}]"
+    return f"{said} in {where}, the first of {np.sum(bad)} such of {np.size(bad)} states"
+
+
 def _at(
     state: ArrayLike, thrust: ArrayLike
 ) -> tuple[int, Numbers, Numbers, Numbers, Number]:
     """Rows, sines and cosines, couple, force in the intermediate frame, thrust; checked."""
     x = _rows("state", state, (6, 9))
     one = isinstance(x[1], float)
+    if one and not (math.isfinite(x[0]) and math.isfinite(x[1])):
+        raise ValueError(f"the angles phi = {x[0]!r} and theta = {x[1]!r} must be finite")
     sin, cos = (math.sin, math.cos) if one else (np.sin, np.cos)
     angles = sin(x[1]), cos(x[1]), sin(x[0]), cos(x[0])
     _off_the_pole(x[1], angles[0])
@@ -783,13 +796,11 @@ def _off_the_pole(theta: Number, sine: Number) -> None:
     """Refuses sin(theta) = 0, as far as theta as a float can tell, where phi' is not determined."""
     if isinstance(theta, float) and abs(sine) > max(2**-51 * abs(theta), 2.0**-1000):
         return
-    bound = np.maximum(2**-51 * np.abs(theta), 2.0**-1000)
-    bad = np.flatnonzero(~(np.abs(sine) > bound))
-    if bad.size:
-        first = np.ravel(theta)[bad[0]]
+    bad = ~(np.abs(sine) > np.maximum(2**-51 * np.abs(theta), 2.0**-1000))
+    if np.any(bad):
         raise ValueError(
-            f"Euler angles are singular at sin(theta) = 0: {bad.size} of {np.size(theta)} states"
-            f" are there, the first with theta = {first!r}; the module directors has no such place"
+            f"Euler angles are singular at sin(theta) = 0: {_first(bad, 'theta', [theta])};"
+            " the module directors has no such place"
         )
 
 

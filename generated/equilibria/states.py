@@ -813,11 +813,12 @@ def helix(couple: ArrayLike, theta: ArrayLike, constants: Constants) -> State:
     """The helical state about g_3 under M g_3 with the angle theta in [0, pi] (section 4.3).
 
     Every couple and angle give one. M and theta stay regular where the paper's M_1 = -M sin theta
-    does not, at theta = 0. Raises ValueError where v_3 > 0 fails.
+    does not, at theta = 0. Raises ValueError for other angles and where v_3 > 0 fails.
     """
     M, angle = np.broadcast_arrays(np.asarray(couple, dtype=float), np.asarray(theta, dtype=float))
     if not ((angle >= 0) & (angle <= math.pi)).all():
-        raise ValueError("theta must lie in [0, pi]")
+        first = float(angle[~((angle >= 0) & (angle <= math.pi))][0])
+        raise ValueError(f"theta, the angle of d_3 and g_3, must lie in [0, pi], not {first!r}")
     sine = np.sin(angle)
     cosine = np.where(angle == math.pi / 2, 0.0, np.cos(angle))
     sine = np.where(angle == math.pi, 0.0, sine)

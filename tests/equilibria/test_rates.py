@@ -162,15 +162,63 @@ def test_pole_is_refused_by_angles_and_nothing_to_directors(theta: float) -> Non
     c = euler_angles.Constants(**RODS[0])
     states = np.array([[0.2, 0.2], [1.0, theta], [0.3, 0.3], [0.1, 0.1], [0.2, 0.2], [0.3, 0.3]])
     for call in (euler_angles.rates, euler_angles.jacobian):
-        with pytest.raises(ValueError, match=r"sin\(theta\) = 0: 1 of 2 states .* directors"):
+        said = rf"sin\(theta\) = 0: theta = {float(theta)!r}"
+        with pytest.raises(ValueError, match=rf"{said} in state\[:, 1\], the first of 1 such of 2"):
             call(0, states, c, 2.0)
-        with pytest.raises(ValueError, match="1 of 1 states"):
+        alone = rf"{said}; the module directors" if np.isfinite(theta) else "must be finite"
+        with pytest.raises(ValueError, match=alone):
             call(0, states[:, 1], c, 2.0)
     if np.isfinite(theta):
         x = [*quaternion(0.2, theta, 0.3), 0.1, 0.2, 0.3, 0, 0, 0]
         d = directors.Constants(**RODS[0])
         assert np.isfinite(directors.rates(0, x, d, (0, 0, 2.0))).all()
         assert np.isfinite(directors.jacobian(0, x, d, (0, 0, 2.0))).all()
+
+
+def test_angles_that_are_not_finite_are_refused() -> None:
+    """By their values, and not by what math.sin makes of them."""
+    c = euler_angles.Constants(**RODS[0])
+    for phi, theta in ((np.inf, 1.0), (0.2, -np.inf), (np.nan, 1.0)):
+        with pytest.raises(ValueError, match=rf"phi = {phi} and theta = {theta} must be finite"):
+            euler_angles.rates(0, [phi, theta, 0.3, 0.1, 0.2, 0.3], c, 2.0)
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-320, 1e-160, 1e154, 1e200, 1e308, np.inf])
+def test_quaternion_without_a_norm_is_refused(size: float) -> None:
+    """Of one rod and of many, with the rod named; just inside the bound the frame is right."""
+    c, whole = directors.Constants(**RODS[0]), np.ones((10, 2, 3))
+    whole[:4, 1, 2] = size
+    said = rf"1e-150 < \|q\| < 1e150: q = {size!r}, {size!r}, {size!r}, {size!r}".replace(
+        "+", r"\+"
+    )
+    for call in (directors.rates, directors.jacobian):
+        with pytest.raises(ValueError, match=rf"{said}; .* divide it by its norm"):
+            call(0, whole[:, 1, 2], c, (0, 0, 1))
+        with pytest.raises(
+            ValueError, match=rf"{said} in state\[:, 1, 2\], the first of 1 such of 6"
+        ):
+            call(0, whole, c, (0, 0, 1))
+    with pytest.raises(ValueError, match=said):
+        directors.frame(whole)
+
+
+@pytest.mark.parametrize("size", [1e-149, 1e149])
+def test_frame_does_not_know_the_size_of_its_quaternion(size: float) -> None:
+    c, x = directors.Constants(**RODS[0]), np.array([0.8, 0.3, -0.4, 0.3, 1, 2, 3, 0, 0, 0])
+    big = np.concatenate([size * x[:4], x[4:]])
+    got, wanted = (directors.rates(0, y, c, (0.1, 0, 1)) for y in (big, x))
+    assert apart(got[:4] / size, wanted[:4]) < 1e-15
+    assert apart(got[4:], wanted[4:]) < 1e-15
+
+
+def test_a_state_with_a_nan_has_rates_of_nan_and_the_others_their_own() -> None:
+    c, whole = directors.Constants(**RODS[0]), np.ones((10, 3))
+    whole[1, 1] = np.nan
+    got = directors.rates(0, whole, c, (0, 0, 1))
+    assert np.isnan(got[:, 1]).all()
+    alone = directors.rates(0, whole[:, [0, 2]], c, (0, 0, 1))
+    assert np.allclose(got[:, [0, 2]], alone, rtol=1e-14, atol=0)
+    assert np.isnan(directors.rates(0, whole[:, 1], c, (0, 0, 1))).all()
 
 
 def test_near_the_pole_angles_are_taken() -> None:

@@ -263,8 +263,8 @@ def test_what_fails_is_said_with_its_size() -> None:
         states.straight(1e9, weak, turned=True)
     with pytest.raises(ValueError, match="v_3 > 0 fails"):
         states.helix(1e9, 0.1, states.Constants(**{**CHIRAL, "eta": 0.5, "iota": 0.5}))
-    with pytest.raises(ValueError, match="theta must lie"):
-        states.helix(1.0, 4.0, c)
+    with pytest.raises(ValueError, match=r"theta, .* must lie in \[0, pi\], not 4\.0"):
+        states.helix([1.0, 2.0], [0.3, 4.0], c)
 
 
 def test_list_of_states() -> None:

@@ -207,13 +207,14 @@ def test_the_pole_is_refused_by_angles_alone() -> None:
     assert frame.error < 1e-8
 
 
-@pytest.mark.parametrize("torn", [math.nan, 1e300])
-def test_a_method_that_gives_up_is_a_result(known: Reference, torn: float) -> None:
+@pytest.mark.parametrize(("torn", "why"), [(math.nan, "step size"), (1e300, "the quaternion")])
+def test_a_method_that_gives_up_is_a_result(known: Reference, torn: float, why: str) -> None:
+    """No step is small enough, or one led to a state that the equations refuse."""
     form = equations("directors", ROD)
     twin = replace(form, rates=lambda s, x: form.rates(s, x) + (torn if s > 0.5 else 0.0))
     found = integrate(ROD, "directors", twin, "RK45", 1e-6, known)
     assert found.outcome == GAVE_UP
-    assert found.why
+    assert why in found.why
     assert found.error is None
 
 

@@ -43,13 +43,13 @@ class OutOfCalls(Exception):
 class Run:
     """What one integration came to.
 
-    outcome: "done"; "stalled", out of calls; "refused" by the equations, as Euler angles refuse
-    theta = 0; "gave up", where no step was small enough or one led out of what floats hold;
-    "skipped", where a looser tolerance stalled. calls, jacobians, steps: counts; seconds: the
-    fastest of the rounds. error: the larger of that of r beside max(length, |r|) and that of the
-    frame (the angle between the frames, in radians), against the reference. drift: the largest
-    over the steps of the three first integrals, each beside its own size: the couple about d_3,
-    the couple about the force, and W* + n_3.
+    outcome: "done"; "stalled", out of calls; "refused", where the equations have no answer at the
+    start, as Euler angles at theta = 0; "gave up", where no step was small enough or one led to a
+    state that the equations refuse; "skipped", where a looser tolerance stalled. calls, jacobians,
+    steps: counts; seconds: the fastest of the rounds. error: the larger of that of r beside
+    max(length, |r|) and that of the frame (the angle between the frames, in radians), against the
+    reference. drift: the largest over the steps of the three first integrals, each beside its own
+    size: the couple about d_3, the couple about the force, and W* + n_3.
     """
 
     problem: str
@@ -180,12 +180,10 @@ def integrate(
     except OutOfCalls:
         seconds = time.perf_counter() - started
         return Run(*head, STALLED, f"{budget} calls", _short(seconds), count.calls, count.jacobians)
-    except ArithmeticError as error:  # a step into states that no float can hold
-        seconds = time.perf_counter() - started
-        why = f"{type(error).__name__} in the equations"
-        return Run(*head, GAVE_UP, why, _short(seconds), count.calls, count.jacobians)
-    except ValueError as error:  # a state that the equations refuse
-        why = str(error).partition(":")[0]
+    except ValueError as error:  # a state that the equations refuse: the first, or one stepped to
+        seconds, why = time.perf_counter() - started, str(error).partition(":")[0]
+        if count.calls > 1:
+            return Run(*head, GAVE_UP, why, _short(seconds), count.calls, count.jacobians)
         return Run(*head, REFUSED, why, None, count.calls, count.jacobians)
     end = solution.y[:, -1]
     if not (solution.success and np.isfinite(end).all()):
