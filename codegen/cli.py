@@ -237,8 +237,8 @@ def generate(
     as_json: Json = False,
 ) -> None:
     """Rewrite generated/ from the derivation."""
+    from rodproof.codegen import files, places, scene
     from rodproof.codegen import generate as generator
-    from rodproof.codegen import places, scene
     from rodproof.derivations import ledger
 
     with one_sentence():
@@ -251,7 +251,8 @@ def generate(
             loaded = scene.load(own)
             scene.known("target", target or loaded.targets[0], tuple(scene.TARGETS))
             text = generator.render(loaded, verdicts, target or loaded.targets[0])
-            _written([generator.write_text(out, text)], as_json)
+            files.write_text(out, text)
+            _written([out], as_json)
             return
         folder = places.checkout().generated
         chosen = [scene.committed(name) for name in names] if names else None

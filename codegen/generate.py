@@ -131,12 +131,6 @@ def write(
     return list(texts)
 
 
-def write_text(path: Path, text: str) -> Path:
-    """Writes one module, say of a user's own scene, whole or not at all; returns its path."""
-    disk.write_text(path, text)
-    return path
-
-
 def check(
     root: Path, scenes: Iterable[Scene] | None = None, verdicts: Mapping[str, str] | None = None
 ) -> list[Difference]:
