@@ -552,11 +552,13 @@ def _stack(rows: Numbers) -> Array:
 class State:
     """A rod in equilibrium whose strains are constant in a frame that turns at a constant rate.
 
-    The force is thrust g_3, the couple is couple g_3; theta is the angle of d_3 and g_3. In the
-    intermediate frame e_k = R_3(phi) R_2(theta), phi = precession s, psi = spin s, the strains are
-    u (3, ...) and v (3, ...). energy is the stored energy less the work of the loads, per length:
-    -W* - thrust cos(theta), by which states under one load are compared. kind is straight, sheared,
-    twisted, helix or circle. Numbers, or arrays of one shape.
+    The force is thrust g_3, the couple is couple g_3 (force times length); theta, in radians, is
+    the angle of d_3 and g_3, with sine and cosine. In the intermediate frame e_k = R_3(phi)
+    R_2(theta), phi = precession s, psi = spin s (both rates in 1/length), the strains are
+    u (3, ...), in 1/length, and v (3, ...). energy is the stored energy less the work of the loads,
+    per length, a force: -W* - thrust cos(theta), by which states under one load are compared. kind
+    is straight, sheared, twisted, helix or circle. Numbers, or arrays of one shape. The methods
+    take s, the place along the rod, as a number or an array that fits that shape.
     """
 
     kind: str
@@ -592,7 +594,7 @@ class State:
         return self.along * self.precession / (self.across**2 + self.along**2)
 
     def angles(self, s: Number) -> Array:
-        """phi, theta, psi at s, (3, ...)."""
+        """phi, theta, psi at s, (3, ...), in radians."""
         return _stack((self.precession * s, self.theta + 0 * s, self.spin * s))
 
     def directors(self, s: Number) -> Array:
@@ -604,7 +606,7 @@ class State:
         return entries.reshape(3, 3, *entries.shape[1:])
 
     def center_line(self, s: Number) -> Array:
-        """r(s) from r(0) = 0, (3, ...), in the fixed basis."""
+        """r(s) from r(0) = 0, (3, ...), in the fixed basis, in the unit of length of s."""
         half = self.precession * s / 2
         reach = self.across * s * np.sinc(half / np.pi)
         return _stack((reach * np.cos(half), reach * np.sin(half), self.along * s))
@@ -614,7 +616,7 @@ class State:
         return self._in_directors(self.u, s), self._in_directors(self.v, s)
 
     def loads_at(self, s: Number) -> Pair:
-        """m and n in the directors at s, (3, ...) each."""
+        """m (force times length) and n (force) in the directors at s, (3, ...) each."""
         tilt = _stack(_axis(self.sine, self.cosine))
         return self._in_directors(self.couple * tilt, s), self._in_directors(self.thrust * tilt, s)
 
@@ -699,7 +701,7 @@ def _decimal(value: Fraction) -> Decimal:
 
 
 def threshold(constants: Constants) -> float:
-    """N_thresh: sheared states exist for |N| > N_thresh (n-thresh, extra-threshold-sharp).
+    """N_thresh, a force: sheared states exist for |N| > N_thresh (n-thresh, extra-threshold-sharp).
 
     N_thresh^-p = c^p - b^(p/2) in units of gamma, rounded once. Raises ValueError, with the
     condition on the moduli that fails and by how much.
@@ -708,7 +710,7 @@ def threshold(constants: Constants) -> float:
 
 
 def limiting_angle(constants: Constants) -> float:
-    """The angle of the sheared states as N grows without bound; errors as of `threshold`."""
+    """The angle of the sheared states as N grows, in radians; raises as `threshold`."""
     sine, cosine = _branch(constants).limit
     return math.atan2(math.sqrt(sine), math.sqrt(cosine))
 
@@ -716,7 +718,8 @@ def limiting_angle(constants: Constants) -> float:
 def sheared_angle(thrust: ArrayLike, constants: Constants) -> Array:
     """theta of the sheared state under N g_3, in (0, pi/2) for N > 0, in (pi/2, pi) for N < 0.
 
-    thrust is N, a number or an array. With y the load radius over gamma and c N x = (1 + y^p)^(1/p)
+    thrust is N, a number or an array, whose shape the angle, in radians, has. With y the load
+    radius over gamma and c N x = (1 + y^p)^(1/p)
     (x = cos theta, N over gamma) the equation is y^2 + (1 + y^p)^(2/p)/c = a N^2, its slope in y^2
     between 1 and 1 + 1/c for p >= 2; for p = 2 it is linear. It is solved less its value
     at the threshold, for t in sin^2 theta = b/c t (1 - (N_thresh/N)^2): monotonically by Newton,
@@ -783,7 +786,8 @@ def _growth(
 def straight(thrust: ArrayLike, constants: Constants, *, turned: bool = False) -> State:
     """The straight state under N g_3: theta = 0, or pi if turned (section 4.2).
 
-    It exists for every N, as long as v_3 > 0: a rod that compresses to nothing is refused
+    thrust is N, a force: a number or an array, whose shape the state has. It exists for every N,
+    as long as v_3 > 0: a rod that compresses to nothing is refused
     (ValueError). Pulled where N cos(theta) > 0.
     """
     N = np.asarray(thrust, dtype=float)
@@ -793,7 +797,7 @@ def straight(thrust: ArrayLike, constants: Constants, *, turned: bool = False) -
 
 
 def sheared(thrust: ArrayLike, constants: Constants) -> State:
-    """The sheared state under N g_3; raises as `sheared_angle`."""
+    """The sheared state under N g_3, thrust as of `straight`; raises as `sheared_angle`."""
     N = np.asarray(thrust, dtype=float)
     sine, cosine = _sheared(N, constants)
     return _under_thrust("sheared", N, sine, np.where(N > 0, cosine, -cosine), constants)
@@ -812,7 +816,8 @@ def circle(couple: ArrayLike, constants: Constants) -> State:
 def helix(couple: ArrayLike, theta: ArrayLike, constants: Constants) -> State:
     """The helical state about g_3 under M g_3 with the angle theta in [0, pi] (section 4.3).
 
-    Every couple and angle give one. M and theta stay regular where the paper's M_1 = -M sin theta
+    couple is M, force times length, and theta in radians: numbers or arrays that broadcast. Every
+    couple and angle give one. M and theta stay regular where the paper's M_1 = -M sin theta
     does not, at theta = 0. Raises ValueError for other angles and where v_3 > 0 fails.
     """
     M, angle = np.broadcast_arrays(np.asarray(couple, dtype=float), np.asarray(theta, dtype=float))
@@ -870,7 +875,8 @@ def equilibria(thrust: float, constants: Constants) -> list[State]:
 
     Without a thrust there is one, the rod at rest. Else the straight state that is pulled; the
     straight state that is pushed, unless it would compress to nothing; and above the threshold the
-    sheared state, which then has the lowest energy.
+    sheared state, which then has the lowest energy. Raises ValueError if thrust, a number, is not
+    finite.
     """
     N = float(thrust)
     if not math.isfinite(N):
