@@ -372,16 +372,23 @@ def _apply(
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
     scratch = np.empty((ROWS, size), arrays[0].dtype)
+    taken = [np.empty((len(array), size), array.dtype) for array in given]
     made = [np.empty((*HEADS[name], size), arrays[0].dtype) for name in names]
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
             work = scratch[:, : part.stop - start]
-            rows = [row for a in given for row in a[:, part]]
+            rows = [row for block in taken for row in block[:, : part.stop - start]]
+            for row, values in zip(rows, (v for a in given for v in a[:, part]), strict=True):
+                row[...] = values
             flat = [block[..., : part.stop - start] for block in made]
 $run
             for values, block in zip(whole, flat, strict=True):
-                values[part] = np.moveaxis(block, -1, 0)
+                if block.ndim == 2:  # a row at a time: a vector's axis is too short to loop over
+                    for k, row in enumerate(block):
+                        values[part, k] = row
+                else:
+                    values[part] = np.moveaxis(block, -1, 0)
     if not direct:
         for result, values in zip(results, whole, strict=True):
             result[...] = values.reshape(result.shape)
