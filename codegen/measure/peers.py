@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from rodproof.codegen.files import write_text
-from rodproof.codegen.measure import compiled, records
+from rodproof.codegen.measure import compiled, records, variants
 from rodproof.codegen.measure.form import Code, Form, rows
 from rodproof.codegen.measure.rivals import form_of
 from rodproof.codegen.measure.subjects import subject
@@ -77,7 +77,7 @@ class Comparison:
 def peers() -> tuple[Form, ...]:
     """In the order of a round; the first answers are the ones to agree with."""
     usual = map(form_of, ("stable float64", "lambdify", "lambdify cse"))
-    return (*usual, *compiled.forms())
+    return (*usual, *variants.forms(), *compiled.forms())
 
 
 def compare(points: tuple[int, ...], rounds: int, tell: Tell) -> Comparison:
@@ -102,9 +102,10 @@ def compare(points: tuple[int, ...], rounds: int, tell: Tell) -> Comparison:
 
 
 def task(function: str, p: float, points: int) -> Task:
-    """Ordinary points inside the domain."""
+    """Ordinary points inside the domain, and inside the ranges of the form without guards."""
     rng = np.random.default_rng(11)
-    first, second = rng.uniform(-0.25, 0.25, (2, 3, points))
+    first, second = rng.uniform(-variants.REACH, variants.REACH, (2, 3, points))
+    first[0] = np.maximum(np.abs(first[0]), variants.LEAST)
     second[2] += 0.0 if function == "strains" else 1.0
     return Task(function, p, first, second)
 

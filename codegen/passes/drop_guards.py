@@ -120,7 +120,10 @@ def alone(kernel: Kernel, plain: Kernel, scene: Scene) -> Kernel | None:
     if region is None or not scene.ranges:
         return None
     known = _Intervals(plain, scene)
-    inside = known.of(symbol(region.quantity))
+    # a product of a name and its own multiple is a square, which intervals must be shown
+    multiples = {a.symbol: a.expr for a in plain.body if a.expr.is_Mul}
+    (quantity,) = (a.expr for a in plain.body if a.name == region.quantity)
+    inside = known.of(quantity.xreplace(multiples))
     bounds = known.of(region.low), known.of(region.high)
     room = known.of(span)
     sizes = [known.of(a.symbol) for a in plain.constants]

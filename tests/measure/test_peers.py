@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rodproof.codegen.measure import peer_c, peers
-from rodproof.codegen.measure.form import Code, Form, blocks
+from rodproof.codegen.measure import peer_c, peers, variants
+from rodproof.codegen.measure.form import Code, Form, blocks, rows
 from rodproof.codegen.measure.rivals import form_of
+from rodproof.codegen.measure.subjects import subject
 
 
 def _tell(name: str, done: int, total: int) -> None:
@@ -80,3 +81,17 @@ def test_the_c_kernel_writes_every_row(power: int, tmp_path: Path) -> None:
 def test_loading_the_kernel_leaves_subnormals_alone(tmp_path: Path) -> None:
     peer_c.build(peer_c.EXP_LOG, tmp_path)
     assert (np.array([1e-310]) * 1.0)[0] == 1e-310
+
+
+@pytest.mark.parametrize("p", peers.SCENES)
+@pytest.mark.parametrize("function", peers.FUNCTIONS)
+def test_ours_in_other_dress_has_the_same_numbers(function: str, p: float) -> None:
+    """Without a guard in its text, and with components last."""
+    given = peers.task(function, p, 7)
+    code = Code(subject(peers.SCENES[p]), function, given.values)
+    want = rows(peers._call(form_of("stable float64"), code, given)(), 7)
+    for form in variants.forms():
+        got = rows(peers._call(form, code, given)(), 7)
+        np.testing.assert_allclose(got, want, rtol=1e-13, atol=1e-15 * np.abs(want).max())
+    bare = vars(variants._module(variants.BARE, code, given.values))
+    assert not {"_balanced", "_within_limit", f"_{function}_plain"} & set(bare)
