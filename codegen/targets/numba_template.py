@@ -155,8 +155,8 @@ CAREFUL = Template('''\
 def _careful_$name($arguments, c: Values) -> Any:
     """`$name` where squares may leave their range, its inputs scaled."""
     $result = _$name($arguments, c, 1.0)
-    if not LOW < square < HIGH:
-        largest = $largest
+    largest = $largest
+    if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
         for shift in (0, 480, -480):
             $result = _$name($arguments, c, _scale(largest, shift))
             if LOW < square < HIGH:

@@ -235,8 +235,8 @@ def _strains(
 def _careful_strains(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     """`strains` where squares may leave their range, its inputs scaled."""
     values, square = _strains(m1, m2, m3, n1, n2, n3, c, 1.0)
-    if not LOW < square < HIGH:
-        largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+    largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+    if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
         for shift in (0, 480, -480):
             values, square = _strains(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
             if LOW < square < HIGH:
@@ -363,8 +363,8 @@ def _stored_energy(
 def _careful_stored_energy(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
     """`stored_energy` where squares may leave their range, its inputs scaled."""
     values, square, q = _stored_energy(u1, u2, u3, v1, v2, v3, c, 1.0)
-    if not LOW < square < HIGH:
-        largest = max(abs(u1), abs(u2), abs(u3), abs(v1), abs(v2), abs(v3 - 1))
+    largest = max(abs(u1), abs(u2), abs(u3), abs(v1), abs(v2), abs(v3 - 1))
+    if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
         for shift in (0, 480, -480):
             values, square, q = _stored_energy(u1, u2, u3, v1, v2, v3, c, _scale(largest, shift))
             if LOW < square < HIGH:
@@ -441,8 +441,8 @@ def _complementary_energy(
 def _careful_complementary_energy(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     """`complementary_energy` where squares may leave their range, its inputs scaled."""
     values, square = _complementary_energy(m1, m2, m3, n1, n2, n3, c, 1.0)
-    if not LOW < square < HIGH:
-        largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+    largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+    if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
         for shift in (0, 480, -480):
             values, square = _complementary_energy(
                 m1, m2, m3, n1, n2, n3, c, _scale(largest, shift)
@@ -750,8 +750,8 @@ def _compliance(
 def _careful_compliance(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     """`compliance` where squares may leave their range, its inputs scaled."""
     values, square = _compliance(m1, m2, m3, n1, n2, n3, c, 1.0)
-    if not LOW < square < HIGH:
-        largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+    largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+    if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
         for shift in (0, 480, -480):
             values, square = _compliance(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
             if LOW < square < HIGH:
@@ -847,8 +847,8 @@ def _strains_and_gap(
 def _careful_strains_and_gap(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     """`strains_and_gap` where squares may leave their range, its inputs scaled."""
     values, square = _strains_and_gap(m1, m2, m3, n1, n2, n3, c, 1.0)
-    if not LOW < square < HIGH:
-        largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+    largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+    if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
         for shift in (0, 480, -480):
             values, square = _strains_and_gap(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
             if LOW < square < HIGH:
@@ -942,8 +942,8 @@ def _stiffness_at_loads(
 def _careful_stiffness_at_loads(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     """`stiffness_at_loads` where squares may leave their range, its inputs scaled."""
     values, square = _stiffness_at_loads(m1, m2, m3, n1, n2, n3, c, 1.0)
-    if not LOW < square < HIGH:
-        largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+    largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
+    if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
         for shift in (0, 480, -480):
             values, square = _stiffness_at_loads(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
             if LOW < square < HIGH:

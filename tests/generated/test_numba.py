@@ -101,6 +101,18 @@ def test_same_words_for_wrong_input() -> None:
     assert np.array_equal(over, out[0])
 
 
+def test_rest_is_rest_however_small_gamma_is() -> None:
+    """Nothing is scaled there: a scale of 2^-480 takes 1/gamma out of its range."""
+    for module, more in ((full_rod, {"p": 3.3}), (full_rod_p2, {})):
+        for gamma in (1e-200, 1e200):
+            c = module.Constants(**{**GOOD, "gamma": gamma}, **more)
+            u, v, gap = module.strains_and_gap(np.zeros((3, 2)), np.zeros((3, 2)), c)
+            assert not u.any()
+            assert np.array_equal(v, np.tile([[0], [0], [1]], 2))
+            assert np.array_equal(gap, [1, 1])
+            assert np.array_equal(module.strains([0, 0, 0], [0, 0, 0], c)[1], [0, 0, 1])
+
+
 def test_a_block_with_extremes_is_done_again_with_care() -> None:
     """Rest, subnormal and huge loads among ordinary ones, in the last block that is not full."""
     m, n = np.random.default_rng(0).normal(size=(2, 3, 300))
