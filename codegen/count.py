@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
-from rodproof.codegen.kernel import Kernel
+from rodproof.codegen.kernel import Kernel, symbol
 from rodproof.codegen.primitives import WorkShare
 
 TRANSCENDENTAL = (sp.exp, sp.log, log1p, expm1)
@@ -30,7 +30,11 @@ def cost(kernel: Kernel) -> Cost:
     """
     kernel = kernel.plain or kernel
     arithmetic = transcendental = special = 0
-    for expr in kernel.expressions():
+    gauge = kernel.gauge
+    plain = kernel.rewrite({symbol(gauge.unscale): sp.S.One}) if gauge else kernel
+    used = {s.name for expr in plain.expressions() for s in expr.free_symbols}
+    root = gauge is not None and bool({gauge.norm, gauge.radius} & used)
+    for expr in plain.expressions():
         for node in sp.preorder_traversal(expr):
             if isinstance(node, TRANSCENDENTAL):
                 transcendental += 1
@@ -40,4 +44,5 @@ def cost(kernel: Kernel) -> Cost:
                 arithmetic += len(node.args) - 1
             elif isinstance(node, (sp.Pow, sp.Piecewise)):
                 arithmetic += 1
-    return Cost(arithmetic + (kernel.gauge is not None), transcendental, special, len(kernel.body))
+    named = sum(not a.expr.is_Symbol for a in plain.body)
+    return Cost(arithmetic + root, transcendental, special, named)

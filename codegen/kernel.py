@@ -51,9 +51,10 @@ class Gauge:
     """Freedom of scale: ``step`` may be evaluated with its ``inputs`` times any scale > 0.
 
     The step ends in ``square``, homogeneous of degree two in the inputs. After the step ``norm``
-    is its square root, ``radius`` is ``norm/scale`` and ``square`` is ``radius^2``; what follows
-    is exact for any scale. A target uses the scale one, and another where squares would overflow
-    or underflow.
+    is its square root, ``unscale`` is one over the scale, ``radius`` is ``norm*unscale`` and
+    ``square`` is ``radius^2``; what follows is exact for any scale. A target uses the scale one,
+    and another, a power of two, where squares would overflow or underflow. What the inputs made
+    is brought back by ``unscale``: it loses nothing where the radius is subnormal and rounds.
     """
 
     step: str
@@ -61,6 +62,7 @@ class Gauge:
     square: str
     norm: str
     radius: str
+    unscale: str = "unscale"
 
 
 @dataclass(frozen=True)
@@ -174,7 +176,7 @@ def validate(kernel: Kernel, known: frozenset[str]) -> None:
             raise KernelError(f"kernel {kernel.name}: {a.name!r} is set twice")
         defined.add(a.name)
         if kernel.gauge is not None and a.name == kernel.gauge.square:
-            defined |= {kernel.gauge.norm, kernel.gauge.radius}
+            defined |= {kernel.gauge.norm, kernel.gauge.radius, kernel.gauge.unscale}
     if kernel.region is not None:
         defined.add(span.name)
         check("region", kernel.region.low + kernel.region.high + symbol(kernel.region.quantity))

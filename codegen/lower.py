@@ -128,8 +128,8 @@ def lower_loads() -> Kernel:
         Output("mn"[i // 3], (i % 3,), factor * row.symbol, (LOAD_STATEMENTS[i],))
         for i, row in enumerate(small)
     )
-    body = (*_strain_form(), *_strain_radius(), _stiff_factor(), *small)
-    return Kernel("loads", STRAIN_NAMES, body, outputs, None, LIMIT)
+    body = (*_strain_form(), _stiff_factor(), *small)
+    return Kernel("loads", STRAIN_NAMES, body, outputs, STRAIN_GAUGE, LIMIT)
 
 
 def lower_complementary_energy() -> Kernel:
@@ -195,7 +195,11 @@ def lower_loads_and_stiffness() -> Kernel:
     """The loads and their derivative by the strains, from the same form and factor."""
     loads, stiffness = lower_loads(), lower_stiffness()
     return replace(
-        stiffness, name="loads_and_stiffness", outputs=(*loads.outputs, *stiffness.outputs)
+        stiffness,
+        name="loads_and_stiffness",
+        body=tuple(a for a in stiffness.body if a not in _strain_radius()),
+        outputs=(*loads.outputs, *stiffness.outputs),
+        gauge=loads.gauge,
     )
 
 

@@ -108,8 +108,9 @@ def _stiffness_at_loads(case: Case) -> tuple[Rule, ...]:
 
 
 def _loads_and_stiffness(case: Case) -> tuple[Rule, ...]:
-    complete, *rest = _stiffness(case)
-    return (complete, general.REDUCE_LOADS, *rest)
+    by_norm = {general.DIRECT_STIFFNESS: general.DIRECT_SCALED_STIFFNESS}
+    complete, *rest = (rule for rule in _stiffness(case) if rule != general.FLOOR_STRAIN_RADIUS)
+    return (complete, general.REDUCE_LOADS, *(by_norm.get(rule, rule) for rule in rest))
 
 
 CHAINS: dict[str, Callable[[Case], tuple[Rule, ...]]] = {

@@ -150,7 +150,8 @@ def _without_gauge(kernel: Kernel) -> Kernel:
     assert gauge is not None
     radius = theory.y if gauge.radius == "y" else theory.x
     root = Assignment(gauge.radius, sp.sqrt(symbol(gauge.square)))
-    plain = kernel.rewrite({symbol(gauge.norm): radius, symbol(gauge.radius): radius})
+    ones = {symbol(gauge.norm): radius, symbol(gauge.radius): radius}
+    plain = kernel.rewrite(ones | {symbol(gauge.unscale): sp.S.One})
     dropped = (*kernel.dropped, "overflow and underflow of squares")
     return replace(plain, body=(root, *plain.body), gauge=None, dropped=dropped)
 
@@ -174,6 +175,7 @@ class _Intervals:
         self._defined = {a.name: a.expr for a in (*kernel.constants, *kernel.body)}
         square = "q_star" if kernel.inputs[0] in LOAD_NAMES else "q"
         self._defined |= dict.fromkeys(("size", "y", "x"), sp.sqrt(symbol(square)))
+        self._defined["unscale"] = sp.S.One
 
     def of(self, expr: sp.Basic) -> Interval:
         """The interval of an expression."""

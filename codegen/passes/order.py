@@ -26,7 +26,8 @@ def _sorted(assignments: tuple[Assignment, ...], kernel: Kernel) -> tuple[Assign
     gauge = kernel.gauge
     done: list[Assignment] = []
     while waiting:
-        hidden = {gauge.norm, gauge.radius} if gauge and gauge.square in unset else set()
+        hidden = {gauge.norm, gauge.radius, gauge.unscale} if gauge else set[str]()
+        hidden = hidden if gauge and gauge.square in unset else set()
         ready = [a for a in waiting if not {s.name for s in a.expr.free_symbols} & (unset | hidden)]
         if not ready:
             raise KernelError(f"kernel {kernel.name}: {waiting[0].name!r} depends on itself")

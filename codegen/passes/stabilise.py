@@ -44,6 +44,7 @@ x, y = theory.x, theory.y
 m1, m2, m3, n1, n2, n3 = LOADS
 u1, u2, u3, v1, v2, _ = STRAINS
 stretch, size, factor, share, q = map(symbol, ("stretch", "size", "factor", "share", "q"))
+unscale, reach, secant = map(symbol, ("unscale", "reach", "secant"))
 chirality, gap, per_gap = map(symbol, ("chirality", "gap", "per_gap"))
 mu_1, mu_2, mu_3, nu_1, nu_2, nu_3 = map(symbol, ("mu_1", "mu_2", "mu_3", "nu_1", "nu_2", "nu_3"))
 n3_dilates, m3_contracts = symbol("n3_dilates"), symbol("m3_contracts")
@@ -134,9 +135,9 @@ REDUCE_STRAINS = Rule(
         )
     ),
     (
-        Assignment("reach", y * factor / size),
+        Assignment("reach", factor * unscale),
         *(
-            Assignment(answer.name, symbol("reach") / modulus)
+            Assignment(answer.name, reach / modulus)
             for answer, modulus in dict(zip(answers, moduli, strict=True)).items()
         ),
     ),
@@ -177,8 +178,9 @@ REDUCE_LOADS = Rule(
     ),
     (
         TENSION,
+        Assignment("secant", factor * unscale),
         *(
-            Assignment(answer.name, factor * modulus)
+            Assignment(answer.name, secant * modulus)
             for answer, modulus in dict(zip(answers, moduli, strict=True)).items()
         ),
     ),
@@ -373,25 +375,30 @@ DIRECT_COMPLIANCE = Rule(
     CHIRAL_CONSTANTS,
 )
 
-DIRECT_STIFFNESS = Rule(
-    "load direction from the reduced strains",
-    tuple(
-        (row / x, symbol(f"{answer}_per_x") * reduced)
-        for row, answer, reduced in zip(
-            s, answers, (kappa_1, kappa_2, torque, lam_1, lam_2, tension), strict=True
-        )
-    ),
-    (
-        TENSION,
-        Assignment("per_x", 1 / x),
-        *(
-            Assignment(f"{answer}_per_x", modulus * symbol("per_x"))
-            for answer, modulus in dict(zip(answers, moduli, strict=True)).items()
+
+def _direct_stiffness(root: sp.Symbol) -> Rule:
+    """K eps/x by the root of Q, or by that of the scaled Q with strains of the same scale."""
+    per = symbol(f"per_{root}")
+    reduced = (kappa_1, kappa_2, torque, lam_1, lam_2, tension)
+    scaled = dict(zip(answers, moduli, strict=True))
+    return Rule(
+        f"load direction from the reduced strains, by {root}",
+        tuple(
+            (row / x, symbol(f"{answer}_{per}") * strain)
+            for row, answer, strain in zip(s, answers, reduced, strict=True)
         ),
-    ),
-    "beta^2 u3 + iota (v3 - 1) forms squares of constants that may leave the range of numbers",
-    CHIRAL_CONSTANTS,
-)
+        (
+            TENSION,
+            Assignment(per.name, 1 / root),
+            *(Assignment(f"{answer}_{per}", modulus * per) for answer, modulus in scaled.items()),
+        ),
+        "beta^2 u3 + iota (v3 - 1) forms squares of constants that may leave the range of numbers",
+        CHIRAL_CONSTANTS,
+    )
+
+
+DIRECT_STIFFNESS = _direct_stiffness(sp.Symbol("x", positive=True))
+DIRECT_SCALED_STIFFNESS = _direct_stiffness(size)
 
 
 def _rank_one(

@@ -67,6 +67,7 @@ class Evaluator:
                 size = max(ctx.sqrt(values[a.name]), values["tiny"])
                 values[kernel.gauge.norm] = size
                 values[kernel.gauge.radius] = ctx.sqrt(values[a.name]) / factor
+                values[kernel.gauge.unscale] = 1 / factor
                 values[a.name] /= factor**2
             if kernel.limit and a.name == kernel.limit.quantity and not values[a.name] < 1:
                 raise LimitError(f"{kernel.limit.sentence}; Q = {ctx.nstr(values[a.name], 17)}")

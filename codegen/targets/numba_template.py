@@ -146,8 +146,9 @@ def _work_share_at(depth: float, c: Values) -> float:
 SCALES = '''\
 @at_point
 def _scale(largest: float, shift: int) -> float:
-    """A power of two that takes the largest input near one, and its logarithm by ``shift``."""
-    return ldexp(1.0, min(max(shift - frexp(largest)[1], -1020), 1020))
+    """A power of two that takes the largest input near one, a small one to 2^-400, by ``shift``."""
+    power = frexp(largest)[1]
+    return ldexp(1.0, min(max(shift - max(power, 0) - min(power + 400, 0), -1020), 1020))
 '''
 
 CAREFUL = Template('''\
@@ -157,7 +158,7 @@ def _careful_$name($arguments, c: Values) -> Any:
     $result = _$name($arguments, c, 1.0)
     largest = $largest
     if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
-        for shift in (0, 480, -480):
+        for shift in (0, 480, -480, 880):
             $result = _$name($arguments, c, _scale(largest, shift))
             if LOW < square < HIGH:
                 break

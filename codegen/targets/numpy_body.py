@@ -151,8 +151,9 @@ def _call(step: Step, kernel: Kernel, base: int) -> list[str]:
             lines = ['with np.errstate(over="ignore", invalid="ignore"):', INDENT + lines[0]]
     else:
         values = names[:-1]
-        radii = [n if n in needed else "_" for n in (gauge.norm, gauge.radius, gauge.square)]
-        call = f"{', '.join(radii)} = _balanced(_{step.name}, {given}, c, {scratch})"
+        given_out, function = handed(kernel)
+        radii = [n if n in needed else "_" for n in given_out]
+        call = f"{', '.join(radii)} = {function}(_{step.name}, {given}, c, {scratch})"
         if set(values) <= {"_"}:
             lines = [f"_, {call}"]
         else:
@@ -161,6 +162,15 @@ def _call(step: Step, kernel: Kernel, base: int) -> list[str]:
     if kernel.limit and kernel.limit.quantity in step.results:
         lines += [f"{kernel.limit.quantity} = _within_limit({kernel.limit.quantity})"]
     return lines
+
+
+def handed(kernel: Kernel) -> tuple[tuple[str, ...], str]:
+    """What comes with the values of the gauge's step, and the function that hands it out."""
+    gauge = kernel.gauge
+    assert gauge is not None
+    if {gauge.norm, gauge.radius} & {s.name for e in kernel.expressions() for s in e.free_symbols}:
+        return (gauge.norm, gauge.radius, gauge.unscale, gauge.square), "_balanced"
+    return ("", gauge.unscale, gauge.square), "_rescaled"
 
 
 def body(kernel: Kernel, steps: dict[str, Step], printer: Printer, text: FunctionText) -> Body:
@@ -291,15 +301,13 @@ def arranged(
 
 
 def _unscaled(a: Assignment, kernel: Kernel, printer: Printer) -> list[Call]:
-    """Without a scale the norm and the radius are one array, and their quotient is left out."""
-    if not kernel.gauge:
-        return []
-    radius, norm = kernel.gauge.radius, kernel.gauge.norm
+    """A product with the scale's inverse, which is left out where there is no scale."""
     found = {s.name: s for s in a.expr.free_symbols}
-    if radius not in found or norm not in found:
+    unscale = kernel.gauge.unscale if kernel.gauge else ""
+    if unscale not in found:
         return []
-    same = a.expr.xreplace({found[norm]: found[radius]})
-    text = f"{printer.text(same)} if {norm} is {radius} else {printer.text(a.expr)}"
+    same = a.expr.xreplace({found[unscale]: sp.S.One})
+    text = f"{printer.text(same)} if {unscale} is None else {printer.text(a.expr)}"
     return [Call(a.name, "", (text,), frozenset(found) - set(printer.spelling))]
 
 

@@ -70,15 +70,19 @@ def point(
             lines.append(f"{INDENT}{', '.join(left[: head[0]])} = {name}")
         left = left[head[0] if head else 1 :]
     lines += _if_not(" is ".join([*(f"type({name})" for name in kernel.inputs), "float"]))
-    guards = {}
-    square = scalar.square(kernel, scalar.PYTHON)
-    if square:
-        guards[square] = _if_not(f"LOW < {square} < HIGH")
-    if kernel.limit:
-        quantity = kernel.limit.quantity
-        guards[quantity] = [*guards.get(quantity, []), *_if_not(f"{quantity} < 1")]
+    guards = _guards(kernel)
     body = scalar.body(kernel, scalar.PYTHON, spelling, guards, packed=scene.matrix == "packed")
     return "\n".join([*lines, *body.lines, *scalar.returned(body.answer)])
+
+
+def _guards(kernel: Kernel) -> dict[str, list[str]]:
+    """Where arrays take over: past the limit, and where squares lose digits but at rest."""
+    if kernel.gauge:
+        inputs = kernel.gauge.inputs
+        moved = f"any(({', '.join(inputs)}))" if len(inputs) > 1 else f"{inputs[0]} != 0"
+        within = f"LOW < {kernel.gauge.square} < {'1' if kernel.limit else 'HIGH'}"
+        return {kernel.gauge.square: _if_not(f"{within} and {moved}")}
+    return {q.quantity: _if_not(f"{q.quantity} < 1") for q in (kernel.limit,) if q}
 
 
 def _if_not(test: str) -> list[str]:

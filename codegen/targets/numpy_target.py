@@ -20,6 +20,7 @@ from rodproof.codegen.targets.numpy_body import (
     Step,
     body,
     form_again,
+    handed,
     spelling,
     step_function,
     steps_of,
@@ -64,7 +65,9 @@ def print_module(
         *filter(None, [plain_record(kernels)]),
         *(step_function(step, scene) for step in steps.values()),
     ]
-    parts += [template.BALANCED] if any(kernel.gauge for kernel in kernels) else []
+    gauges = {handed(kernel)[1] for kernel in kernels if kernel.gauge}
+    parts += [template.RESCALED] if gauges else []
+    parts += [template.BALANCED] if "_balanced" in gauges else []
     parts += [template.WORK_SHARE] if needs_work_share(kernels) else []
     if limited:
         parts.append(template.RAISE if raising else template.NAN)

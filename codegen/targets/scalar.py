@@ -221,39 +221,26 @@ def _resolved(kernel: Kernel, dialect: Dialect) -> Kernel:
     radius, norm, own = symbol(gauge.radius), symbol(gauge.norm), symbol(gauge.square)
     used = {s.name for e in kernel.expressions() for s in e.free_symbols}
     used |= {kernel.limit.quantity} if kernel.limit else set()
+    taken = symbol(square(kernel, dialect))
+    rooted = bool({gauge.norm, gauge.radius} & used)
+    added = []
     if dialect.scaled:
-        taken = symbol(square(kernel, dialect))
-        added = [
-            Assignment(gauge.norm, sp.sqrt(taken)),
-            Assignment(gauge.radius, norm / SCALE),
-        ]
-        if gauge.square in used:
-            added.append(Assignment(gauge.square, radius**2))
-        after, quotient = {norm: sp.Max(norm, tiny)}, 1 / SCALE
+        added += [Assignment(gauge.norm, sp.sqrt(taken))] if rooted else []
+        added += [Assignment(gauge.radius, norm / SCALE)] if rooted else []
+        whole = radius**2 if rooted else taken / SCALE**2
+        added += [Assignment(gauge.square, whole)] if gauge.square in used else []
+        after = {norm: sp.Max(norm, tiny), symbol(gauge.unscale): 1 / SCALE}
     else:
-        taken, after, quotient = own, {norm: radius}, sp.S.One
-        added = [Assignment(gauge.radius, sp.sqrt(own))]
+        added += [Assignment(gauge.radius, sp.sqrt(own))] if rooted else []
+        after = {norm: sp.Max(radius, tiny), symbol(gauge.unscale): sp.S.One}
     body: list[Assignment] = []
-    known = False
     for a in kernel.body:
         if a.name == gauge.square:
             body += [replace(a, name=taken.name), *added]
-            known = True
         else:
-            expr = _quotient(a.expr, radius / norm, quotient).xreplace(after) if known else a.expr
-            body.append(replace(a, expr=expr))
-    outputs = tuple(
-        replace(o, expr=_quotient(o.expr, radius / norm, quotient).xreplace(after))
-        for o in kernel.outputs
-    )
+            body.append(replace(a, expr=a.expr.xreplace(after)))
+    outputs = tuple(replace(o, expr=o.expr.xreplace(after)) for o in kernel.outputs)
     return drop_aliases(replace(kernel, body=tuple(body), outputs=outputs))
-
-
-def _quotient(expr: sp.Expr, before: sp.Expr, after: sp.Expr) -> sp.Expr:
-    """With radius/norm, which is exactly one over the scale, as that."""
-    return expr.replace(
-        lambda e: e.is_Mul and set(before.args) <= set(e.args), lambda e: e / before * after
-    )
 
 
 def _rows(kernel: Kernel) -> Kernel:

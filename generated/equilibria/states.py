@@ -199,10 +199,41 @@ def _soften(y: Array, c: Constants, s: Rows) -> Rows:
     return ratio, power, factor
 
 
-def _exponent(rows: Rows) -> Array:
-    """The power of two above the largest magnitude in each column."""
+def _largest(rows: Rows) -> Array:
+    """The largest magnitude in each column."""
     largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
-    return np.frexp(largest)[1]
+    return largest
+
+
+def _rescaled(
+    form: Callable[[Rows, Constants, Rows], Rows],
+    inputs: Rows,
+    c: Constants,
+    s: Rows,
+    known: Rows = (),
+) -> tuple[Rows, Array, Any, Array]:
+    """Values of ``form`` (or ``known`` ones), the last of them, one over the scale, the square.
+
+    Where squares would overflow or underflow the inputs are taken times a power of two, before
+    anything rounds; elsewhere, and at rest, this scale is one. None says that it is one everywhere.
+    The square comes twice, with the scale that the other values have, and without.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        *values, square = known or form(inputs, c, s)
+        low = TINY[square.dtype] * 2**60
+        if square.min() > low and square.max() < 1 / low:
+            return values, square, None, square
+        odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
+        if not odd.any():
+            return values, square, 1.0, square
+        power = np.frexp(_largest(inputs))[1]
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        power += np.frexp(_largest(values))[1] - 1
+        deep = int(0.4 * math.log2(low))  # small values stay small, so that unscale does not
+        power = np.where(odd, np.maximum(power, 0) + np.minimum(power - deep, 0), 0)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        unscale = np.ldexp(square.dtype.type(1), power)
+        return values, square, unscale, square * unscale * unscale
 
 
 def _balanced(
@@ -211,25 +242,18 @@ def _balanced(
     c: Constants,
     s: Rows,
     known: Rows = (),
-) -> tuple[Rows, Array, Array, Array]:
-    """Values of ``form`` (``known``, if they are), the root of the last, the radius, its square.
+) -> tuple[Rows, Array, Array, Any, Array]:
+    """As `_rescaled`, with roots: values, norm, radius, one over the scale, square.
 
-    Where squares would overflow or underflow the inputs are taken times a power of two, a factor
-    that the values and their root share and that later cancels; the radius is free of it.
+    The values and the norm share the scale; the radius and its square are free of it.
     """
-    with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = known or form(inputs, c, s)
-        tiny = TINY[square.dtype]
-        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
-            size = np.sqrt(square, out=s[-1])
-            return values, size, size, square
-        power = _exponent(inputs)
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
-        power = power + _exponent(values)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
-        size = np.sqrt(square)
-        radius = np.ldexp(size, power)
-        return values, np.maximum(size, tiny), radius, radius * radius
+    values, scaled, unscale, square = _rescaled(form, inputs, c, s, known)
+    size = np.sqrt(scaled, out=s[-1])
+    if unscale is None:
+        return values, size, size, None, square
+    with np.errstate(over="ignore"):
+        radius = size * unscale
+    return values, np.maximum(size, TINY[size.dtype]), radius, unscale, square
 
 
 def _work_share(depth: Array, c: Constants) -> Array:
@@ -415,10 +439,10 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None
     if _strains_plain(loads, c, work, u, v):
         return
     s = [*u, *v, *work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, nu_1, nu_2, dilatation, twist = values
     *_, factor = _soften(y, c, s[8:])
-    reach = factor if size is y else factor * y / size
+    reach = factor if unscale is None else factor * unscale
     bend = np.multiply(c.per_alpha, reach, out=s[6])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
@@ -446,7 +470,7 @@ def _strains_at(m: Any, n: Any, c: Constants) -> Any:
         c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
         + nu_2 * nu_2
     )
-    if not LOW < q_star < HIGH:
+    if not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3)):
         return None
     y = sqrt(q_star)
     larger = y if y > c.gamma else c.gamma
@@ -481,7 +505,7 @@ def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -
 def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
     s = [*work]
-    _, _, y, _ = _balanced(_reduce_loads, loads, c, s)
+    _, _, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     ratio, power, factor = _soften(y, c, s[8:])
     strain = np.multiply(factor, y, out=s[11])
     depth = np.log1p(power, out=s[10])

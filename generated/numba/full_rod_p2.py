@@ -16,14 +16,14 @@ reading; wstar-gradient Section 3.1 proved.
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
 Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                48    0    0   17
+    strains                45    0    0   16
     loads                  39    0    0   17
     stored_energy          30    0    0   12
     complementary_energy   37    0    0   12
     stiffness             107    0    0   27
-    loads_and_stiffness   117    0    0   31
+    loads_and_stiffness   116    0    0   30
     compliance            159    0    0   39
-    strains_and_gap        52    0    0   18
+    strains_and_gap        49    0    0   17
     stiffness_at_loads    106    0    0   23
 """
 
@@ -174,8 +174,9 @@ class Constants:
 
 @at_point
 def _scale(largest: float, shift: int) -> float:
-    """A power of two that takes the largest input near one, and its logarithm by ``shift``."""
-    return ldexp(1.0, min(max(shift - frexp(largest)[1], -1020), 1020))
+    """A power of two that takes the largest input near one, a small one to 2^-400, by ``shift``."""
+    power = frexp(largest)[1]
+    return ldexp(1.0, min(max(shift - max(power, 0) - min(power + 400, 0), -1020), 1020))
 
 
 @at_point
@@ -237,7 +238,7 @@ def _careful_strains(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     values, square = _strains(m1, m2, m3, n1, n2, n3, c, 1.0)
     largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
     if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
-        for shift in (0, 480, -480):
+        for shift in (0, 480, -480, 880):
             values, square = _strains(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
             if LOW < square < HIGH:
                 break
@@ -276,34 +277,53 @@ def _strains_over(m: Array, n: Array, c: Values, u: Array, v: Array) -> tuple[in
 
 
 @at_point
-def _loads(u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values) -> Any:
+def _loads(
+    u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values, scale: float
+) -> Any:
     """(m, n) = gamma (1 - Q)^(-1/2) K (u, v - e3)."""
     stretch = v3 - 1
+    u1, u2, u3 = scale * u1, scale * u2, scale * u3
+    v1, v2, stretch = scale * v1, scale * v2, scale * stretch
     kappa_1, kappa_2, kappa_3, lam_1 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.zeta * v1
     lam_2, lam_3 = c.zeta * v2, c.eta * stretch
     torque = c.chirality * lam_3 + kappa_3
     tension = c.chirality * torque + c.gap * lam_3
-    q = (
+    square = (
         c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
         + lam_2 * lam_2 + torque * torque
     )
+    q = square / (scale * scale)
     left = 1 - q
     root = sqrt(left)
     factor = c.gamma / root
-    bend, turn, shear, extend = c.alpha * factor, c.beta * factor, c.zeta * factor, c.eta * factor
+    secant = factor / scale
+    bend, turn, shear, extend = c.alpha * secant, c.beta * secant, c.zeta * secant, c.eta * secant
     return (
         (
             bend * kappa_1, bend * kappa_2, torque * turn, lam_1 * shear, lam_2 * shear,
             extend * tension,
         ),
-        q,
+        square, q,
     )
+
+
+@over_points
+def _careful_loads(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
+    """`loads` where squares may leave their range, its inputs scaled."""
+    values, square, q = _loads(u1, u2, u3, v1, v2, v3, c, 1.0)
+    largest = max(abs(u1), abs(u2), abs(u3), abs(v1), abs(v2), abs(v3 - 1))
+    if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
+        for shift in (0, 480, -480, 880):
+            values, square, q = _loads(u1, u2, u3, v1, v2, v3, c, _scale(largest, shift))
+            if LOW < square < HIGH:
+                break
+    return values, q
 
 
 @over_points
 def loads_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
     """`loads` at one point: m (3,), n (3,); for compiled code."""
-    values, q = _loads(u1, u2, u3, v1, v2, v3, c)
+    values, q = _careful_loads(u1, u2, u3, v1, v2, v3, c)
     if not q < 1:
         raise ValueError("strains must satisfy Q(u, v) < 1")
     return values[0:3], values[3:6]
@@ -323,12 +343,14 @@ def _loads_over(u: Array, v: Array, c: Values, m: Array, n: Array) -> tuple[int,
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, q = _loads(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
+            values, square, q = _loads(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c, 1.0)
             _store_loads(values, i, m, n)
+            fine &= (square > LOW) & (square < HIGH)
             fine &= q < 1
         if not fine:
             for i in range(begin, end):
-                _, q = _loads(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
+                values, q = _careful_loads(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
+                _store_loads(values, i, m, n)
                 if not q < 1:
                     first, worst = (np.int64(i), q) if past == 0 else (first, worst)
                     past += 1
@@ -365,7 +387,7 @@ def _careful_stored_energy(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
     values, square, q = _stored_energy(u1, u2, u3, v1, v2, v3, c, 1.0)
     largest = max(abs(u1), abs(u2), abs(u3), abs(v1), abs(v2), abs(v3 - 1))
     if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
-        for shift in (0, 480, -480):
+        for shift in (0, 480, -480, 880):
             values, square, q = _stored_energy(u1, u2, u3, v1, v2, v3, c, _scale(largest, shift))
             if LOW < square < HIGH:
                 break
@@ -443,7 +465,7 @@ def _careful_complementary_energy(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     values, square = _complementary_energy(m1, m2, m3, n1, n2, n3, c, 1.0)
     largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
     if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
-        for shift in (0, 480, -480):
+        for shift in (0, 480, -480, 880):
             values, square = _complementary_energy(
                 m1, m2, m3, n1, n2, n3, c, _scale(largest, shift)
             )
@@ -582,30 +604,35 @@ def _stiffness_over(u: Array, v: Array, c: Values, stiff: Array) -> tuple[int, A
 
 @at_point
 def _loads_and_stiffness(
-    u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values
+    u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values, scale: float
 ) -> Any:
     """(m, n) = factor K (u, v - e3) and D^2 W = factor (K + growth t t^T), as apart."""
     stretch = v3 - 1
+    u1, u2, u3 = scale * u1, scale * u2, scale * u3
+    v1, v2, stretch = scale * v1, scale * v2, scale * stretch
     kappa_1, kappa_2, kappa_3, lam_1 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.zeta * v1
     lam_2, lam_3 = c.zeta * v2, c.eta * stretch
     torque = c.chirality * lam_3 + kappa_3
     tension = c.chirality * torque + c.gap * lam_3
-    q = (
+    square = (
         c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
         + lam_2 * lam_2 + torque * torque
     )
+    size = sqrt(square)
+    x = size / scale
+    q = x * x
     left = 1 - q
     root = sqrt(left)
     factor, growth = c.gamma / root, q / left
-    steep, bend, turn, shear = factor * growth, c.alpha * factor, c.beta * factor, c.zeta * factor
-    extend = c.eta * factor
-    x = sqrt(q if q > LEAST else LEAST)
-    per_x = 1 / x
-    bend_per_x, turn_per_x, shear_per_x = c.alpha * per_x, c.beta * per_x, c.zeta * per_x
-    extend_per_x, t1, t2 = c.eta * per_x, bend_per_x * kappa_1, bend_per_x * kappa_2
-    t3, t4, t5 = torque * turn_per_x, lam_1 * shear_per_x, lam_2 * shear_per_x
-    t6, steep_1, steep_2, steep_3 = extend_per_x * tension, steep * t1, steep * t2, steep * t3
-    steep_4, steep_5, steep_6 = steep * t4, steep * t5, steep * t6
+    per_size = 1 / (size if size > LEAST else LEAST)
+    bend_per_size, turn_per_size = c.alpha * per_size, c.beta * per_size
+    shear_per_size, extend_per_size, steep = c.zeta * per_size, c.eta * per_size, factor * growth
+    secant = factor / scale
+    bend, turn, shear, extend = c.alpha * secant, c.beta * secant, c.zeta * secant, c.eta * secant
+    t1, t2, t3 = bend_per_size * kappa_1, bend_per_size * kappa_2, torque * turn_per_size
+    t4, t5, t6 = lam_1 * shear_per_size, lam_2 * shear_per_size, extend_per_size * tension
+    steep_1, steep_2, steep_3, steep_4 = steep * t1, steep * t2, steep * t3, steep * t4
+    steep_5, steep_6 = steep * t5, steep * t6
     k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
     k14, k15, k16 = steep_1 * t4, steep_1 * t5, steep_1 * t6
     k22, k23, k24 = c.alpha * c.alpha * factor + steep_2 * t2, steep_2 * t3, steep_2 * t4
@@ -621,14 +648,29 @@ def _loads_and_stiffness(
             extend * tension, k11, k12, k13, k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35,
             k36, k44, k45, k46, k55, k56, k66,
         ),
-        q,
+        square, q,
     )
+
+
+@over_points
+def _careful_loads_and_stiffness(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
+    """`loads_and_stiffness` where squares may leave their range, its inputs scaled."""
+    values, square, q = _loads_and_stiffness(u1, u2, u3, v1, v2, v3, c, 1.0)
+    largest = max(abs(u1), abs(u2), abs(u3), abs(v1), abs(v2), abs(v3 - 1))
+    if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
+        for shift in (0, 480, -480, 880):
+            values, square, q = _loads_and_stiffness(
+                u1, u2, u3, v1, v2, v3, c, _scale(largest, shift)
+            )
+            if LOW < square < HIGH:
+                break
+    return values, q
 
 
 @over_points
 def loads_and_stiffness_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
     """`loads_and_stiffness` at one point: m (3,), n (3,), stiff (6, 6); for compiled code."""
-    values, q = _loads_and_stiffness(u1, u2, u3, v1, v2, v3, c)
+    values, q = _careful_loads_and_stiffness(u1, u2, u3, v1, v2, v3, c)
     if not q < 1:
         raise ValueError("strains must satisfy Q(u, v) < 1")
     stiff = (
@@ -667,14 +709,18 @@ def _loads_and_stiffness_over(
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, q = _loads_and_stiffness(
-                u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c
+            values, square, q = _loads_and_stiffness(
+                u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c, 1.0
             )
             _store_loads_and_stiffness(values, i - begin, rows)
+            fine &= (square > LOW) & (square < HIGH)
             fine &= q < 1
         if not fine:
             for i in range(begin, end):
-                _, q = _loads_and_stiffness(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
+                values, q = _careful_loads_and_stiffness(
+                    u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c
+                )
+                _store_loads_and_stiffness(values, i - begin, rows)
                 if not q < 1:
                     first, worst = (np.int64(i), q) if past == 0 else (first, worst)
                     past += 1
@@ -752,7 +798,7 @@ def _careful_compliance(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     values, square = _compliance(m1, m2, m3, n1, n2, n3, c, 1.0)
     largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
     if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
-        for shift in (0, 480, -480):
+        for shift in (0, 480, -480, 880):
             values, square = _compliance(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
             if LOW < square < HIGH:
                 break
@@ -849,7 +895,7 @@ def _careful_strains_and_gap(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     values, square = _strains_and_gap(m1, m2, m3, n1, n2, n3, c, 1.0)
     largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
     if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
-        for shift in (0, 480, -480):
+        for shift in (0, 480, -480, 880):
             values, square = _strains_and_gap(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
             if LOW < square < HIGH:
                 break
@@ -944,7 +990,7 @@ def _careful_stiffness_at_loads(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     values, square = _stiffness_at_loads(m1, m2, m3, n1, n2, n3, c, 1.0)
     largest = max(abs(m1), abs(m2), abs(m3), abs(n1), abs(n2), abs(n3))
     if largest > 0 and not LOW < square < HIGH:  # at rest there is nothing to scale
-        for shift in (0, 480, -480):
+        for shift in (0, 480, -480, 880):
             values, square = _stiffness_at_loads(m1, m2, m3, n1, n2, n3, c, _scale(largest, shift))
             if LOW < square < HIGH:
                 break

@@ -294,10 +294,41 @@ def _harden(y: Array, c: Constants, s: Rows) -> Rows:
     return rise, factor
 
 
-def _exponent(rows: Rows) -> Array:
-    """The power of two above the largest magnitude in each column."""
+def _largest(rows: Rows) -> Array:
+    """The largest magnitude in each column."""
     largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
-    return np.frexp(largest)[1]
+    return largest
+
+
+def _rescaled(
+    form: Callable[[Rows, Constants, Rows], Rows],
+    inputs: Rows,
+    c: Constants,
+    s: Rows,
+    known: Rows = (),
+) -> tuple[Rows, Array, Any, Array]:
+    """Values of ``form`` (or ``known`` ones), the last of them, one over the scale, the square.
+
+    Where squares would overflow or underflow the inputs are taken times a power of two, before
+    anything rounds; elsewhere, and at rest, this scale is one. None says that it is one everywhere.
+    The square comes twice, with the scale that the other values have, and without.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        *values, square = known or form(inputs, c, s)
+        low = TINY[square.dtype] * 2**60
+        if square.min() > low and square.max() < 1 / low:
+            return values, square, None, square
+        odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
+        if not odd.any():
+            return values, square, 1.0, square
+        power = np.frexp(_largest(inputs))[1]
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        power += np.frexp(_largest(values))[1] - 1
+        deep = int(0.4 * math.log2(low))  # small values stay small, so that unscale does not
+        power = np.where(odd, np.maximum(power, 0) + np.minimum(power - deep, 0), 0)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        unscale = np.ldexp(square.dtype.type(1), power)
+        return values, square, unscale, square * unscale * unscale
 
 
 def _balanced(
@@ -306,25 +337,18 @@ def _balanced(
     c: Constants,
     s: Rows,
     known: Rows = (),
-) -> tuple[Rows, Array, Array, Array]:
-    """Values of ``form`` (``known``, if they are), the root of the last, the radius, its square.
+) -> tuple[Rows, Array, Array, Any, Array]:
+    """As `_rescaled`, with roots: values, norm, radius, one over the scale, square.
 
-    Where squares would overflow or underflow the inputs are taken times a power of two, a factor
-    that the values and their root share and that later cancels; the radius is free of it.
+    The values and the norm share the scale; the radius and its square are free of it.
     """
-    with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = known or form(inputs, c, s)
-        tiny = TINY[square.dtype]
-        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
-            size = np.sqrt(square, out=s[-1])
-            return values, size, size, square
-        power = _exponent(inputs)
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
-        power = power + _exponent(values)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
-        size = np.sqrt(square)
-        radius = np.ldexp(size, power)
-        return values, np.maximum(size, tiny), radius, radius * radius
+    values, scaled, unscale, square = _rescaled(form, inputs, c, s, known)
+    size = np.sqrt(scaled, out=s[-1])
+    if unscale is None:
+        return values, size, size, None, square
+    with np.errstate(over="ignore"):
+        radius = size * unscale
+    return values, np.maximum(size, TINY[size.dtype]), radius, unscale, square
 
 
 def _work_share(depth: Array, c: Constants) -> Array:
@@ -536,10 +560,10 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None
     if _strains_plain(loads, c, work, u, v):
         return
     s = [*u, *v, *work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
     *_, factor = _soften(y, c, s[9:])
-    reach = factor if size is y else factor * y / size
+    reach = factor if unscale is None else factor * unscale
     bend = np.multiply(c.per_alpha, reach, out=s[6])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
@@ -567,7 +591,7 @@ def _strains_at(m: Any, n: Any, c: Constants) -> Any:
         c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
         + nu_2 * nu_2
     )
-    if not LOW < q_star < HIGH:
+    if not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3)):
         return None
     y = sqrt(q_star)
     larger = y if y > c.gamma else c.gamma
@@ -650,19 +674,20 @@ def _loads(strains: Rows, c: Constants, work: Array, m: Array, n: Array) -> None
         return
     s = [*m, *n, *work]
     rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
-    with np.errstate(over="ignore", invalid="ignore"):
-        kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c, s)
+    values, _, unscale, q = _rescaled(_reduce_strains, rest, c, s)
+    kappa_1, kappa_2, lam_1, lam_2, torque, tension = values
     q = _within_limit(q)
     *_, factor = _stiffen(q, c, s[8:])
-    bend = np.multiply(c.alpha, factor, out=s[6])
+    secant = factor if unscale is None else factor * unscale
+    bend = np.multiply(c.alpha, secant, out=s[6])
     np.multiply(bend, kappa_1, out=m[0])
     np.multiply(bend, kappa_2, out=m[1])
-    turn = np.multiply(c.beta, factor, out=s[6])
+    turn = np.multiply(c.beta, secant, out=s[6])
     np.multiply(torque, turn, out=m[2])
-    shear = np.multiply(c.zeta, factor, out=s[6])
+    shear = np.multiply(c.zeta, secant, out=s[6])
     np.multiply(lam_1, shear, out=n[0])
     np.multiply(lam_2, shear, out=n[1])
-    extend = np.multiply(c.eta, factor, out=s[10])
+    extend = np.multiply(c.eta, secant, out=s[10])
     np.multiply(extend, tension, out=n[2])
 
 
@@ -681,7 +706,7 @@ def _loads_at(u: Any, v: Any, c: Constants) -> Any:
         c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
         + lam_2 * lam_2 + torque * torque
     )
-    if not q < 1:
+    if not LOW < q < 1 and any((u1, u2, u3, v1, v2, stretch)):
         return None
     raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
     growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
@@ -715,7 +740,7 @@ def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
     s = [*work]
     rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
-    _, _, x, q = _balanced(_reduce_strains, rest, c, s)
+    _, _, x, _, q = _balanced(_reduce_strains, rest, c, s)
     q = _within_limit(q)
     _, depth, factor = _stiffen(q, c, s[8:])
     load = np.multiply(factor, x, out=s[10])
@@ -738,7 +763,7 @@ def stored_energy(u: Given, v: Given, constants: Constants, out: Array | None = 
 def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
     s = [*work]
-    _, _, y, _ = _balanced(_reduce_loads, loads, c, s)
+    _, _, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     ratio, power, factor = _soften(y, c, s[9:])
     strain = np.multiply(factor, y, out=s[12])
     depth = np.log1p(power, out=s[11])
@@ -958,39 +983,37 @@ def _loads_and_stiffness(
         return
     s = [*work]
     rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
-    with np.errstate(over="ignore", invalid="ignore"):
-        kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c, s)
+    values, size, _, unscale, q = _balanced(_reduce_strains, rest, c, s)
+    kappa_1, kappa_2, lam_1, lam_2, torque, tension = values
     q = _within_limit(q)
     growth, _, factor = _stiffen(q, c, s[8:])
-    tiny = TINY[q.dtype]
     t = work[:6]
-    bend = np.multiply(c.alpha, factor, out=s[6])
+    secant = factor if unscale is None else factor * unscale
+    bend = np.multiply(c.alpha, secant, out=s[6])
     np.multiply(bend, kappa_1, out=m[0])
     np.multiply(bend, kappa_2, out=m[1])
-    turn = np.multiply(c.beta, factor, out=s[6])
+    turn = np.multiply(c.beta, secant, out=s[6])
     np.multiply(torque, turn, out=m[2])
-    shear = np.multiply(c.zeta, factor, out=s[6])
+    shear = np.multiply(c.zeta, secant, out=s[6])
     np.multiply(lam_1, shear, out=n[0])
     np.multiply(lam_2, shear, out=n[1])
-    extend = np.multiply(c.eta, factor, out=s[6])
+    extend = np.multiply(c.eta, secant, out=s[6])
     np.multiply(extend, tension, out=n[2])
     steep = np.multiply(factor, growth, out=s[8])
-    x = np.maximum(q, tiny, out=s[7])
-    np.sqrt(x, out=x)
-    per_x = np.divide(1, x, out=s[7])
-    bend_per_x = np.multiply(c.alpha, per_x, out=s[6])
-    np.multiply(bend_per_x, kappa_1, out=t[0])
-    np.multiply(bend_per_x, kappa_2, out=t[1])
-    turn_per_x = np.multiply(c.beta, per_x, out=s[6])
-    np.multiply(torque, turn_per_x, out=t[2])
-    shear_per_x = np.multiply(c.zeta, per_x, out=s[6])
-    np.multiply(lam_1, shear_per_x, out=t[3])
-    np.multiply(lam_2, shear_per_x, out=t[4])
-    extend_per_x = np.multiply(c.eta, per_x, out=s[7])
-    np.multiply(extend_per_x, tension, out=t[5])
+    per_size = np.divide(1, size, out=s[6])
+    bend_per_size = np.multiply(c.alpha, per_size, out=s[7])
+    np.multiply(bend_per_size, kappa_1, out=t[0])
+    np.multiply(bend_per_size, kappa_2, out=t[1])
+    turn_per_size = np.multiply(c.beta, per_size, out=s[7])
+    np.multiply(torque, turn_per_size, out=t[2])
+    shear_per_size = np.multiply(c.zeta, per_size, out=s[7])
+    np.multiply(lam_1, shear_per_size, out=t[3])
+    np.multiply(lam_2, shear_per_size, out=t[4])
+    extend_per_size = np.multiply(c.eta, per_size, out=s[6])
+    np.multiply(extend_per_size, tension, out=t[5])
     for i in range(6):
-        np.multiply(steep, t[i], out=s[7])
-        np.multiply(s[7], t[i:], out=stiff[i, i:])
+        np.multiply(steep, t[i], out=s[6])
+        np.multiply(s[6], t[i:], out=stiff[i, i:])
     np.multiply(c.alpha**2, factor, out=s[8])
     stiff[0, 0] += s[8]
     stiff[1, 1] += s[8]
@@ -1019,20 +1042,21 @@ def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
         c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
         + lam_2 * lam_2 + torque * torque
     )
-    if not q < 1:
+    if not LOW < q < 1 and any((u1, u2, u3, v1, v2, stretch)):
         return None
+    x = sqrt(q)
     raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
-    growth, x = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST), sqrt(q if q > LEAST else LEAST)
+    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = log1p(growth)
     factor = c.gamma * exp(c.per_p * depth)
     steep, bend, turn, shear = factor * growth, c.alpha * factor, c.beta * factor, c.zeta * factor
-    extend = c.eta * factor
-    per_x = 1 / x
-    bend_per_x, turn_per_x, shear_per_x = c.alpha * per_x, c.beta * per_x, c.zeta * per_x
-    extend_per_x, t1, t2 = c.eta * per_x, bend_per_x * kappa_1, bend_per_x * kappa_2
-    t3, t4, t5 = torque * turn_per_x, lam_1 * shear_per_x, lam_2 * shear_per_x
-    t6, steep_1, steep_2, steep_3 = extend_per_x * tension, steep * t1, steep * t2, steep * t3
-    steep_4, steep_5, steep_6 = steep * t4, steep * t5, steep * t6
+    per_size = 1 / (x if x > LEAST else LEAST)
+    bend_per_size, turn_per_size = c.alpha * per_size, c.beta * per_size
+    shear_per_size, extend_per_size, extend = c.zeta * per_size, c.eta * per_size, c.eta * factor
+    t1, t2, t3 = bend_per_size * kappa_1, bend_per_size * kappa_2, torque * turn_per_size
+    t4, t5, t6 = lam_1 * shear_per_size, lam_2 * shear_per_size, extend_per_size * tension
+    steep_1, steep_2, steep_3, steep_4 = steep * t1, steep * t2, steep * t3, steep * t4
+    steep_5, steep_6 = steep * t5, steep * t6
     k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
     k14, k15, k16 = steep_1 * t4, steep_1 * t5, steep_1 * t6
     k22, k23, k24 = c.alpha * c.alpha * factor + steep_2 * t2, steep_2 * t3, steep_2 * t4
@@ -1086,7 +1110,7 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
     the entries that would cancel are sums of squares.
     """
     s = [*work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3 = values
     _, power, factor = _soften(y, c, s[9:])
     tiny = TINY[y.dtype]
@@ -1247,10 +1271,10 @@ def _strains_and_gap(
     if _strains_and_gap_plain(loads, c, work, u, v, limit_gap):
         return
     s = [*work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
     _, power, factor = _soften(y, c, s[9:])
-    reach = factor if size is y else factor * y / size
+    reach = factor if unscale is None else factor * unscale
     bend = np.multiply(c.per_alpha, reach, out=s[6])
     np.multiply(bend, mu_1, out=u[0])
     np.multiply(bend, mu_2, out=u[1])
@@ -1345,7 +1369,7 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
     if _stiffness_at_loads_plain(loads, c, work, stiff):
         return
     s = [*work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, nu_1, nu_2, _, _, nu_3 = values
     rise, factor = _harden(y, c, s[9:])
     h = work[11:17]

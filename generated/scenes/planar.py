@@ -22,8 +22,8 @@ Operations a point where nothing is extreme: arithmetic, transcendental, energy 
     loads                  19    4    0    7
     stored_energy          20    4    1    9
     complementary_energy   28    6    1   10
-    stiffness              37    4    0    9
-    loads_and_stiffness    40    4    0   11
+    stiffness              37    4    0    8
+    loads_and_stiffness    40    4    0   10
     compliance             64    4    0   22
     strains_and_gap        21    4    0    6
     stiffness_at_loads     37    4    0    8
@@ -240,10 +240,41 @@ def _harden(y: Array, c: Constants, s: Rows) -> Rows:
     return rise, factor
 
 
-def _exponent(rows: Rows) -> Array:
-    """The power of two above the largest magnitude in each column."""
+def _largest(rows: Rows) -> Array:
+    """The largest magnitude in each column."""
     largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
-    return np.frexp(largest)[1]
+    return largest
+
+
+def _rescaled(
+    form: Callable[[Rows, Constants, Rows], Rows],
+    inputs: Rows,
+    c: Constants,
+    s: Rows,
+    known: Rows = (),
+) -> tuple[Rows, Array, Any, Array]:
+    """Values of ``form`` (or ``known`` ones), the last of them, one over the scale, the square.
+
+    Where squares would overflow or underflow the inputs are taken times a power of two, before
+    anything rounds; elsewhere, and at rest, this scale is one. None says that it is one everywhere.
+    The square comes twice, with the scale that the other values have, and without.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        *values, square = known or form(inputs, c, s)
+        low = TINY[square.dtype] * 2**60
+        if square.min() > low and square.max() < 1 / low:
+            return values, square, None, square
+        odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
+        if not odd.any():
+            return values, square, 1.0, square
+        power = np.frexp(_largest(inputs))[1]
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        power += np.frexp(_largest(values))[1] - 1
+        deep = int(0.4 * math.log2(low))  # small values stay small, so that unscale does not
+        power = np.where(odd, np.maximum(power, 0) + np.minimum(power - deep, 0), 0)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        unscale = np.ldexp(square.dtype.type(1), power)
+        return values, square, unscale, square * unscale * unscale
 
 
 def _balanced(
@@ -252,25 +283,18 @@ def _balanced(
     c: Constants,
     s: Rows,
     known: Rows = (),
-) -> tuple[Rows, Array, Array, Array]:
-    """Values of ``form`` (``known``, if they are), the root of the last, the radius, its square.
+) -> tuple[Rows, Array, Array, Any, Array]:
+    """As `_rescaled`, with roots: values, norm, radius, one over the scale, square.
 
-    Where squares would overflow or underflow the inputs are taken times a power of two, a factor
-    that the values and their root share and that later cancels; the radius is free of it.
+    The values and the norm share the scale; the radius and its square are free of it.
     """
-    with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = known or form(inputs, c, s)
-        tiny = TINY[square.dtype]
-        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
-            size = np.sqrt(square, out=s[-1])
-            return values, size, size, square
-        power = _exponent(inputs)
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
-        power = power + _exponent(values)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
-        size = np.sqrt(square)
-        radius = np.ldexp(size, power)
-        return values, np.maximum(size, tiny), radius, radius * radius
+    values, scaled, unscale, square = _rescaled(form, inputs, c, s, known)
+    size = np.sqrt(scaled, out=s[-1])
+    if unscale is None:
+        return values, size, size, None, square
+    with np.errstate(over="ignore"):
+        radius = size * unscale
+    return values, np.maximum(size, TINY[size.dtype]), radius, unscale, square
 
 
 def _work_share(depth: Array, c: Constants) -> Array:
@@ -471,10 +495,10 @@ def _strains(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> Non
     if _strains_plain(loads, c, work, u2, v):
         return
     s = [u2, *v, *work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values
     *_, factor = _soften(y, c, s[4:])
-    reach = factor if size is y else factor * y / size
+    reach = factor if unscale is None else factor * unscale
     bend = np.multiply(c.per_alpha, reach, out=s[3])
     np.multiply(bend, mu_2, out=u2)
     shear = np.multiply(c.per_zeta, reach, out=s[3])
@@ -491,7 +515,7 @@ def _strains_at(m2: Any, n: Any, c: Constants) -> Any:
         return None
     mu_2, nu_1, nu_3 = c.per_alpha * m2, c.per_zeta * n1, c.per_eta * n3
     q_star = mu_2 * mu_2 + nu_1 * nu_1 + nu_3 * nu_3
-    if not LOW < q_star < HIGH:
+    if not LOW < q_star < HIGH and any((m2, n1, n3)):
         return None
     y = sqrt(q_star)
     larger = y if y > c.gamma else c.gamma
@@ -558,15 +582,16 @@ def _loads(strains: Rows, c: Constants, work: Array, m2: Array, n: Array) -> Non
         return
     s = [m2, *n, *work]
     rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
-    with np.errstate(over="ignore", invalid="ignore"):
-        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c, s)
+    values, _, unscale, q = _rescaled(_reduce_strains, rest, c, s)
+    kappa_2, lam_1, lam_3 = values
     q = _within_limit(q)
     *_, factor = _stiffen(q, c, s[4:])
-    bend = np.multiply(c.alpha, factor, out=s[3])
+    secant = factor if unscale is None else factor * unscale
+    bend = np.multiply(c.alpha, secant, out=s[3])
     np.multiply(bend, kappa_2, out=m2)
-    shear = np.multiply(c.zeta, factor, out=s[3])
+    shear = np.multiply(c.zeta, secant, out=s[3])
     np.multiply(lam_1, shear, out=n[0])
-    extend = np.multiply(c.eta, factor, out=s[6])
+    extend = np.multiply(c.eta, secant, out=s[6])
     np.multiply(extend, lam_3, out=n[1])
 
 
@@ -578,7 +603,7 @@ def _loads_at(u2: Any, v: Any, c: Constants) -> Any:
     stretch = v3 - 1
     kappa_2, lam_1, lam_3 = c.alpha * u2, c.zeta * v1, c.eta * stretch
     q = kappa_2 * kappa_2 + lam_1 * lam_1 + lam_3 * lam_3
-    if not q < 1:
+    if not LOW < q < 1 and any((u2, v1, stretch)):
         return None
     raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
     growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
@@ -609,7 +634,7 @@ def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
     s = [*work]
     rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
-    _, _, x, q = _balanced(_reduce_strains, rest, c, s)
+    _, _, x, _, q = _balanced(_reduce_strains, rest, c, s)
     q = _within_limit(q)
     _, depth, factor = _stiffen(q, c, s[4:])
     load = np.multiply(factor, x, out=s[6])
@@ -634,7 +659,7 @@ def stored_energy(
 def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
     s = [*work]
-    _, _, y, _ = _balanced(_reduce_loads, loads, c, s)
+    _, _, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     ratio, power, factor = _soften(y, c, s[4:])
     strain = np.multiply(factor, y, out=s[7])
     depth = np.log1p(power, out=s[6])
@@ -811,28 +836,26 @@ def _loads_and_stiffness(
         return
     s = [*work]
     rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
-    with np.errstate(over="ignore", invalid="ignore"):
-        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c, s)
+    values, size, _, unscale, q = _balanced(_reduce_strains, rest, c, s)
+    kappa_2, lam_1, lam_3 = values
     q = _within_limit(q)
     growth, _, factor = _stiffen(q, c, s[4:])
-    tiny = TINY[q.dtype]
     t = work[:3]
-    bend = np.multiply(c.alpha, factor, out=s[5])
+    secant = factor if unscale is None else factor * unscale
+    bend = np.multiply(c.alpha, secant, out=s[3])
     np.multiply(bend, kappa_2, out=m2)
-    shear = np.multiply(c.zeta, factor, out=s[5])
+    shear = np.multiply(c.zeta, secant, out=s[3])
     np.multiply(lam_1, shear, out=n[0])
-    extend = np.multiply(c.eta, factor, out=s[5])
+    extend = np.multiply(c.eta, secant, out=s[3])
     np.multiply(extend, lam_3, out=n[1])
     steep = np.multiply(factor, growth, out=s[4])
-    x = np.maximum(q, tiny, out=s[3])
-    np.sqrt(x, out=x)
-    per_x = np.divide(1, x, out=s[3])
-    bend_per_x = np.multiply(c.alpha, per_x, out=s[5])
-    np.multiply(bend_per_x, kappa_2, out=t[0])
-    shear_per_x = np.multiply(c.zeta, per_x, out=s[5])
-    np.multiply(lam_1, shear_per_x, out=t[1])
-    extend_per_x = np.multiply(c.eta, per_x, out=s[3])
-    np.multiply(extend_per_x, lam_3, out=t[2])
+    per_size = np.divide(1, size, out=s[3])
+    bend_per_size = np.multiply(c.alpha, per_size, out=s[5])
+    np.multiply(bend_per_size, kappa_2, out=t[0])
+    shear_per_size = np.multiply(c.zeta, per_size, out=s[5])
+    np.multiply(lam_1, shear_per_size, out=t[1])
+    extend_per_size = np.multiply(c.eta, per_size, out=s[3])
+    np.multiply(extend_per_size, lam_3, out=t[2])
     for i in range(3):
         np.multiply(steep, t[i], out=s[3])
         np.multiply(s[3], t[i:], out=stiff[i, i:])
@@ -851,17 +874,19 @@ def _loads_and_stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
     stretch = v3 - 1
     kappa_2, lam_1, lam_3 = c.alpha * u2, c.zeta * v1, c.eta * stretch
     q = kappa_2 * kappa_2 + lam_1 * lam_1 + lam_3 * lam_3
-    if not q < 1:
+    if not LOW < q < 1 and any((u2, v1, stretch)):
         return None
+    x = sqrt(q)
     raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
-    growth, x = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST), sqrt(q if q > LEAST else LEAST)
+    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = log1p(growth)
     factor = c.gamma * exp(c.per_p * depth)
     steep, bend, shear, extend = factor * growth, c.alpha * factor, c.zeta * factor, c.eta * factor
-    per_x = 1 / x
-    bend_per_x, shear_per_x, extend_per_x = c.alpha * per_x, c.zeta * per_x, c.eta * per_x
-    t2, t4, t6 = bend_per_x * kappa_2, lam_1 * shear_per_x, extend_per_x * lam_3
-    steep_1, steep_2, steep_3 = steep * t2, steep * t4, steep * t6
+    per_size = 1 / (x if x > LEAST else LEAST)
+    bend_per_size, shear_per_size = c.alpha * per_size, c.zeta * per_size
+    extend_per_size, t2, t4 = c.eta * per_size, bend_per_size * kappa_2, lam_1 * shear_per_size
+    t6, steep_1, steep_2 = extend_per_size * lam_3, steep * t2, steep * t4
+    steep_3 = steep * t6
     k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t2, steep_1 * t4, steep_1 * t6
     k22, k23 = c.zeta * c.zeta * factor + steep_2 * t4, steep_2 * t6
     k33 = c.eta * c.eta * factor + steep_3 * t6
@@ -902,7 +927,7 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
     the entries that would cancel are sums of squares.
     """
     s = [*work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values
     _, power, factor = _soften(y, c, s[4:])
     tiny = TINY[y.dtype]
@@ -1005,10 +1030,10 @@ def _strains_and_gap(
     if _strains_and_gap_plain(loads, c, work, u2, v, limit_gap):
         return
     s = [*work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values
     _, power, factor = _soften(y, c, s[4:])
-    reach = factor if size is y else factor * y / size
+    reach = factor if unscale is None else factor * unscale
     bend = np.multiply(c.per_alpha, reach, out=s[3])
     np.multiply(bend, mu_2, out=u2)
     shear = np.multiply(c.per_zeta, reach, out=s[0])
@@ -1086,7 +1111,7 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
     if _stiffness_at_loads_plain(loads, c, work, stiff):
         return
     s = [*work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values
     rise, factor = _harden(y, c, s[4:])
     h = work[:3]

@@ -190,10 +190,41 @@ def _soften(y: Array, c: Constants, s: Rows) -> Rows:
     return ratio, power, factor
 
 
-def _exponent(rows: Rows) -> Array:
-    """The power of two above the largest magnitude in each column."""
+def _largest(rows: Rows) -> Array:
+    """The largest magnitude in each column."""
     largest: Array = np.maximum.reduce([np.abs(row) for row in rows])
-    return np.frexp(largest)[1]
+    return largest
+
+
+def _rescaled(
+    form: Callable[[Rows, Constants, Rows], Rows],
+    inputs: Rows,
+    c: Constants,
+    s: Rows,
+    known: Rows = (),
+) -> tuple[Rows, Array, Any, Array]:
+    """Values of ``form`` (or ``known`` ones), the last of them, one over the scale, the square.
+
+    Where squares would overflow or underflow the inputs are taken times a power of two, before
+    anything rounds; elsewhere, and at rest, this scale is one. None says that it is one everywhere.
+    The square comes twice, with the scale that the other values have, and without.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        *values, square = known or form(inputs, c, s)
+        low = TINY[square.dtype] * 2**60
+        if square.min() > low and square.max() < 1 / low:
+            return values, square, None, square
+        odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
+        if not odd.any():
+            return values, square, 1.0, square
+        power = np.frexp(_largest(inputs))[1]
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        power += np.frexp(_largest(values))[1] - 1
+        deep = int(0.4 * math.log2(low))  # small values stay small, so that unscale does not
+        power = np.where(odd, np.maximum(power, 0) + np.minimum(power - deep, 0), 0)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        unscale = np.ldexp(square.dtype.type(1), power)
+        return values, square, unscale, square * unscale * unscale
 
 
 def _balanced(
@@ -202,25 +233,18 @@ def _balanced(
     c: Constants,
     s: Rows,
     known: Rows = (),
-) -> tuple[Rows, Array, Array, Array]:
-    """Values of ``form`` (``known``, if they are), the root of the last, the radius, its square.
+) -> tuple[Rows, Array, Array, Any, Array]:
+    """As `_rescaled`, with roots: values, norm, radius, one over the scale, square.
 
-    Where squares would overflow or underflow the inputs are taken times a power of two, a factor
-    that the values and their root share and that later cancels; the radius is free of it.
+    The values and the norm share the scale; the radius and its square are free of it.
     """
-    with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = known or form(inputs, c, s)
-        tiny = TINY[square.dtype]
-        if square.min() > tiny * 2**60 and square.max() < 1 / tiny / 2**60:
-            size = np.sqrt(square, out=s[-1])
-            return values, size, size, square
-        power = _exponent(inputs)
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
-        power = power + _exponent(values)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
-        size = np.sqrt(square)
-        radius = np.ldexp(size, power)
-        return values, np.maximum(size, tiny), radius, radius * radius
+    values, scaled, unscale, square = _rescaled(form, inputs, c, s, known)
+    size = np.sqrt(scaled, out=s[-1])
+    if unscale is None:
+        return values, size, size, None, square
+    with np.errstate(over="ignore"):
+        radius = size * unscale
+    return values, np.maximum(size, TINY[size.dtype]), radius, unscale, square
 
 
 def _work_share(depth: Array, c: Constants) -> Array:
@@ -394,10 +418,10 @@ def _strains(loads: Rows, c: Constants, work: Array, u3: Array, v: Array) -> Non
     if _strains_plain(loads, c, work, u3, v):
         return
     s = [u3, *v, *work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
     nu_1, nu_2, dilatation, twist = values
     *_, factor = _soften(y, c, s[5:])
-    reach = factor if size is y else factor * y / size
+    reach = factor if unscale is None else factor * unscale
     turn = np.multiply(c.per_beta, reach, out=s[4])
     np.multiply(turn, twist, out=u3)
     shear = np.multiply(c.per_zeta, reach, out=s[4])
@@ -416,7 +440,7 @@ def _strains_at(n: Any, c: Constants) -> Any:
     nu_1, nu_2, dilatation = c.per_zeta * n1, c.per_zeta * n2, c.n3_dilates * n3
     twist = -c.chirality * dilatation
     q_star = c.gap * dilatation * dilatation + nu_1 * nu_1 + nu_2 * nu_2
-    if not LOW < q_star < HIGH:
+    if not LOW < q_star < HIGH and any((n1, n2, n3)):
         return None
     y = sqrt(q_star)
     larger = y if y > c.gamma else c.gamma
@@ -447,7 +471,7 @@ def strains(n: Given, constants: Constants, out: Pair | None = None) -> Pair:
 def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
     s = [*work]
-    _, _, y, _ = _balanced(_reduce_loads, loads, c, s)
+    _, _, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     ratio, power, factor = _soften(y, c, s[5:])
     strain = np.multiply(factor, y, out=s[8])
     depth = np.log1p(power, out=s[7])
@@ -476,7 +500,7 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
     the entries that would cancel are sums of squares.
     """
     s = [*work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     nu_1, nu_2, dilatation, _ = values
     _, power, factor = _soften(y, c, s[5:])
     tiny = TINY[y.dtype]
@@ -577,10 +601,10 @@ def _strains_and_gap(
     if _strains_and_gap_plain(loads, c, work, u3, v, limit_gap):
         return
     s = [*work]
-    values, size, y, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
     nu_1, nu_2, dilatation, twist = values
     _, power, factor = _soften(y, c, s[5:])
-    reach = factor if size is y else factor * y / size
+    reach = factor if unscale is None else factor * unscale
     turn = np.multiply(c.per_beta, reach, out=s[4])
     np.multiply(turn, twist, out=u3)
     shear = np.multiply(c.per_zeta, reach, out=s[0])

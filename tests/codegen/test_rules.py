@@ -89,7 +89,7 @@ def test_rational_rules_are_exact(rule: Rule) -> None:
         difference = (before - after).xreplace(lowered)
         for _ in range(6):
             difference = difference.xreplace(defined)
-        difference = difference.xreplace({rules.size: rules.y})  # the gauge of scale one
+        difference = difference.xreplace({rules.unscale: sp.S.One})  # the gauge of scale one
         assert sp.cancel(difference) == 0
 
 

@@ -208,13 +208,16 @@ def scaled(module: ModuleType) -> ModuleType:
     """The module with its gauge at another scale, as where squares would overflow."""
     scale = Exact(F(37, 5))
 
-    def balanced(form: Callable, inputs: list, c: Any, s: Any, *_: Any) -> tuple:
+    def rescaled(form: Callable, inputs: list, c: Any, s: Any, *_: Any) -> tuple:
         *values, square = form([scale * row for row in inputs], c, s)
-        size = np.sqrt(square)
-        radius = size / scale
-        return values, size, radius, radius * radius
+        return values, square, Exact(1) / scale, square / (scale * scale)
 
-    return changed(module, _balanced=balanced)
+    def balanced(*args: Any) -> tuple:
+        values, square, unscale, plain = rescaled(*args)
+        size = np.sqrt(square)
+        return values, size, size * unscale, unscale, plain
+
+    return changed(module, _balanced=balanced, _rescaled=rescaled)
 
 
 def changed(module: ModuleType, **functions: Callable) -> ModuleType:
@@ -291,7 +294,7 @@ def slips() -> list[tuple[str, str, str]]:
                     wrong = [*lines]
                     wrong[statement.lineno - 1] = line.replace(old, new, 1)
                     way = "plain" if node.name.endswith("_plain") else "careful"
-                    way = "scaled" if " is y " in line else way
+                    way = "scaled" if "unscale" in line else way
                     found.append((users[node.name], "\n".join(wrong), way))
     return found
 
