@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Sequence
 
 import sympy as sp
 
@@ -44,8 +45,10 @@ def all_have_values(scene: Scene, kernels: tuple[Kernel, ...]) -> bool:
     return set(used_constants(kernels)) <= {*scene.fixed, *scene.defaults}
 
 
-def print_constants(scene: Scene, kernels: tuple[Kernel, ...]) -> str:
-    """The record's text."""
+def print_constants(
+    scene: Scene, kernels: tuple[Kernel, ...], properties: Sequence[str] = ()
+) -> str:
+    """The record's text, with these properties at its end."""
     used, derived = used_constants(kernels), derived_constants(kernels)
     signed = "iota" in used
     checks = template.COUPLING_CHECK if signed else ""
@@ -73,6 +76,7 @@ def print_constants(scene: Scene, kernels: tuple[Kernel, ...]) -> str:
     text += template.PLAIN if any(kernel.plain for kernel in kernels) else ""
     text += template.WORK_SHARE_TABLES if needs_work_share(kernels) else ""
     text += _of_moduli(scene, used) if scene.moduli else ""
+    text = "\n\n".join([text.rstrip("\n"), *properties])
     rod = "\n\n\nROD = Constants()\n" if all_have_values(scene, kernels) else ""
     return text.rstrip("\n") + "\n" + rod
 

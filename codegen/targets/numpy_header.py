@@ -17,8 +17,8 @@ WIDTH = 98
 
 ONE_POINT = (
     "One point: tuples of numbers (a float for a single component) are answered with tuples of "
-    "floats, in plain Python. They agree with the arrays' answers within 8 ulps of the largest "
-    "component; of loads and stiffness near the limit, as far as the strains determine them."
+    "floats, in plain Python, where nothing is extreme. They agree with the arrays' answers within "
+    "8 ulps of the largest component, or as far as the inputs determine what grows near the limit."
 )
 
 

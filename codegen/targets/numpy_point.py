@@ -5,24 +5,30 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from rodproof.codegen.kernel import Kernel
-from rodproof.codegen.primitives import WorkShare
-from rodproof.codegen.scene import Scene
+from rodproof.codegen.scene import CONSTANT_NAMES, Scene
 from rodproof.codegen.targets import scalar
+from rodproof.codegen.targets.printer import Printer
 from rodproof.codegen.texts import FunctionText
 
 INDENT = "    "
-#: Functions that have text of their own for one point; the others answer by way of arrays.
-OWN = ("strains", "loads", "stiffness", "loads_and_stiffness")
-
+WIDTH = 100
 FUNCTIONS = ("exp", "expm1", "log", "log1p", "sqrt")
 LOW = "LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing"
 LEAST = "LEAST = 2.0**-1022  # the smallest normal number, for one point"
 LOG_MOST = "LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number"
 
+EXTREME = '''\
+class _Extreme(ArithmeticError):
+    """A point that plain Python leaves to arrays."""
+'''
+
 ONE = '''\
 def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
     """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
-    arrays, shape = _arguments(inputs)
+    try:
+        arrays, shape = _arguments(inputs)
+    except ValueError as wrong:
+        raise wrong from None
     if shape:  # tuples of arrays
         return law(*map(np.asarray, inputs.values()), c)
     floats = [a.astype(float).tolist() for a in arrays]
@@ -44,9 +50,23 @@ def _numbers(array: Array) -> Any:
 '''
 
 
-def is_own(kernel: Kernel) -> bool:
-    """Whether the function has text for one point."""
-    return kernel.name in OWN and not any(e.has(WorkShare) for e in kernel.expressions())
+WORK_SHARE = '''\
+def _work_share_at(depth: float, c: Constants) -> float:
+    """`_work_share` of one point."""
+    fraction, powers, start, slope, single = c.work_share
+    beyond = depth - log(9)
+    if beyond <= 0:
+        growth, value = expm1(depth), 1.0
+        for term in reversed(fraction):
+            value = growth / value * term + 1
+        return 0.5 / value
+    left, rest = exp(-beyond), 0.0
+    for coefficient in reversed(powers):
+        rest = rest * left + coefficient
+    turns = -expm1(min(-slope * beyond, 80)) / slope if slope else beyond
+    inner = exp(-beyond / c.p) * (start + single * turns) - left * rest
+    return inner * exp(-2 / c.p * log1p(-left / 9))
+'''
 
 
 def point(
@@ -56,37 +76,88 @@ def point(
     spelling: Mapping[str, str],
     kernels: tuple[Kernel, ...],
 ) -> str:
-    """The private function of one point of floats; it answers None where it must not be used."""
+    """The private function of one point of floats; it raises where it must not be used."""
     given = ", ".join(f"{name}: Any" for name in text.inputs)
     lines = [f"def _{kernel.name}_at({given}, c: Constants) -> Any:"]
-    lines += [f'{INDENT}"""`{kernel.name}` of floats; None where it is left to arrays."""']
-    if kernel.name == "stiffness" and any(k.name == "loads_and_stiffness" for k in kernels):
+    lines += [f'{INDENT}"""`{kernel.name}` of floats, where nothing is extreme."""']
+    if is_part(kernel, kernels):
         whole = f"_loads_and_stiffness_at({', '.join(text.inputs)}, c)"
-        lines += [f"{INDENT}whole = {whole}", f"{INDENT}return whole and whole[-1]"]
-        return "\n".join(lines)
+        return "\n".join([*lines, f"{INDENT}return {whole}[-1]"])
+    hoisted = scalar.hoisted(kernel)
+    lines += _taken(hoisted)
     left = list(kernel.inputs)
     for name, head in text.inputs.items():
         if head:
             lines.append(f"{INDENT}{', '.join(left[: head[0]])} = {name}")
         left = left[head[0] if head else 1 :]
-    lines += _if_not(" is ".join([*(f"type({name})" for name in kernel.inputs), "float"]))
     guards = _guards(kernel)
-    body = scalar.body(kernel, scalar.PYTHON, spelling, guards, packed=scene.matrix == "packed")
+    if not guards:
+        lines += _left(" is ".join([*(f"type({name})" for name in kernel.inputs), "not float"]))
+    spelling = {name: name for name in (*spelling, *(a.name for a in hoisted.constants))}
+    body = scalar.body(hoisted, scalar.PYTHON, spelling, guards, packed=scene.matrix == "packed")
     return "\n".join([*lines, *body.lines, *scalar.returned(body.answer)])
 
 
+def is_part(kernel: Kernel, kernels: tuple[Kernel, ...]) -> bool:
+    """Whether its one point is a part of what another function answers."""
+    return kernel.name == "stiffness" and any(k.name == "loads_and_stiffness" for k in kernels)
+
+
+def constants_taken(kernel: Kernel) -> tuple[str, ...]:
+    """The numbers that the function of one point takes, hoisted ones included, in its order."""
+    hoisted = scalar.hoisted(kernel)
+    made = {a.name for a in hoisted.constants}
+    used = [s.name for e in hoisted.expressions() for s in sorted(e.free_symbols, key=str)]
+    return tuple(n for n in dict.fromkeys(used) if n in made | set(CONSTANT_NAMES))
+
+
+def point_constants(kernel: Kernel) -> str:
+    """The property of the record that hands these numbers out."""
+    hoisted = scalar.hoisted(kernel)
+    fields = {a.name for a in kernel.constants} | set(CONSTANT_NAMES)
+    printer = Printer({name: f"self.{name}" for name in fields})
+    made = {a.name: printer.text(a.expr) for a in hoisted.constants if a.name not in fields}
+    values = [made.get(name, f"self.{name}") for name in constants_taken(kernel)]
+    return "\n".join(
+        [
+            f"{INDENT}@cached_property",
+            f"{INDENT}def of_{kernel.name}(self) -> tuple[float, ...]:",
+            f'{INDENT * 2}"""What `{kernel.name}` of one point takes."""',
+            f"{INDENT * 2}return (",
+            *scalar.filled(values, INDENT * 3),
+            f"{INDENT * 2})",
+        ]
+    )
+
+
+def _taken(kernel: Kernel) -> list[str]:
+    """The line that unpacks them."""
+    names = [*constants_taken(kernel)]
+    line = f"{INDENT}{', '.join(names)} = c.of_{kernel.name}"
+    if len(line) <= WIDTH:
+        return [line]
+    return [f"{INDENT}(", *scalar.filled(names, INDENT * 2), f"{INDENT}) = c.of_{kernel.name}"]
+
+
 def _guards(kernel: Kernel) -> dict[str, list[str]]:
-    """Where arrays take over: past the limit, and where squares lose digits but at rest."""
+    """Where arrays take over: past the limit, and where squares lose digits but at rest.
+
+    The square is a float if every input is a number of Python.
+    """
     if kernel.gauge:
-        inputs = kernel.gauge.inputs
+        inputs, square = kernel.gauge.inputs, kernel.gauge.square
         moved = f"any(({', '.join(inputs)}))" if len(inputs) > 1 else f"{inputs[0]} != 0"
-        within = f"LOW < {kernel.gauge.square} < {'1' if kernel.limit else 'HIGH'}"
-        return {kernel.gauge.square: _if_not(f"{within} and {moved}")}
-    return {q.quantity: _if_not(f"{q.quantity} < 1") for q in (kernel.limit,) if q}
+        within = f"LOW < {square} < {'1' if kernel.limit else 'HIGH'}"
+        return {square: _left(f"type({square}) is not float or (not {within} and {moved})")}
+    limits = (kernel.limit,) if kernel.limit else ()
+    return {
+        q.quantity: _left(f"type({q.quantity}) is not float or not {q.quantity} < 1")
+        for q in limits
+    }
 
 
-def _if_not(test: str) -> list[str]:
-    return [f"{INDENT}if not {test}:", f"{INDENT * 2}return None"]
+def _left(test: str) -> list[str]:
+    return [f"{INDENT}if {test}:", f"{INDENT * 2}raise _Extreme"]
 
 
 def opening(kernel: Kernel, text: FunctionText, kind: str) -> list[str]:
@@ -98,14 +169,12 @@ def opening(kernel: Kernel, text: FunctionText, kind: str) -> list[str]:
     inputs = "{" + ", ".join(f'"{name}": {name}' for name in text.inputs) + "}"
     lines = [f"{INDENT}if out is None and {' and '.join(tests)}:"]
     one = f"_one({kernel.name}, {inputs}, constants)"
-    if not is_own(kernel):
-        return [*lines, f"{INDENT * 2}answer: {kind} = {one}", f"{INDENT * 2}return answer"]
     own = f"_{kernel.name}_at({', '.join(text.inputs)}, constants)"
     return [
         *lines,
         f"{INDENT * 2}try:",
-        f"{INDENT * 3}answer: {kind} | None = {own}",
+        f"{INDENT * 3}answer: {kind} = {own}",
         f"{INDENT * 2}except (ArithmeticError, TypeError, ValueError):",
-        f"{INDENT * 3}answer = None",
-        f"{INDENT * 2}return answer or {one}",
+        f"{INDENT * 3}answer = {one}",
+        f"{INDENT * 2}return answer",
     ]

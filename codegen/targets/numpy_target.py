@@ -48,12 +48,9 @@ def print_module(
     printer = Printer(spelling(kernels))
     steps = steps_of(kernels, printer)
     named = spelling(kernels)
+    points = {k.name: [one.point(k, words[k.name], scene, named, kernels)] for k in kernels}
+    needed = [one.point_constants(k) for k in kernels if not one.is_part(k, kernels)]
     bodies = {k.name: _bodies(k, steps, printer, words[k.name], named) for k in kernels}
-    points = {
-        k.name: [one.point(k, words[k.name], scene, named, kernels)]
-        for k in kernels
-        if one.is_own(k)
-    }
     rows = max(b.rows for several in bodies.values() for b in several)
     limited = [kernel for kernel in kernels if kernel.limit]
     raising = bool(limited) and scene.at_limit == "raise"
@@ -61,19 +58,19 @@ def print_module(
         header(scene, kernels, verdicts or {})
         + "\n\n"
         + _imports(scene, kernels, words, rows, points),
-        print_constants(scene, kernels),
+        print_constants(scene, kernels, needed),
         *filter(None, [plain_record(kernels)]),
         *(step_function(step, scene) for step in steps.values()),
     ]
     gauges = {handed(kernel)[1] for kernel in kernels if kernel.gauge}
     parts += [template.RESCALED] if gauges else []
     parts += [template.BALANCED] if "_balanced" in gauges else []
-    parts += [template.WORK_SHARE] if needs_work_share(kernels) else []
+    parts += [template.WORK_SHARE, one.WORK_SHARE] if needs_work_share(kernels) else []
     if limited:
         parts.append(template.RAISE if raising else template.NAN)
     if raising:
         parts.append(_past_limit(limited[0], steps, printer))
-    parts += [*_plumbing(scene, raising=raising), one.ONE]
+    parts += [*_plumbing(scene, raising=raising), one.EXTREME, one.ONE]
     default = " = ROD" if all_have_values(scene, kernels) else ""
     for kernel in kernels:
         text = words[kernel.name]
@@ -106,10 +103,10 @@ def _imports(
     """Imports, names of types, and the tables that the functions look things up in."""
     derived, plain = derived_constants(kernels), plain_kernels(kernels)
     heads = {n: h for text in words.values() for n, h in (text.inputs | text.outputs).items()}
-    cached = needs_work_share(kernels) or plain
     standard = ["from fractions import Fraction"] if derived or plain else []
-    standard += ["from functools import cached_property"] if cached else []
+    standard += ["from functools import cached_property"]
     single = "".join(text for texts in points.values() for text in texts)
+    single += one.WORK_SHARE if needs_work_share(kernels) else ""
     functions = [name for name in one.FUNCTIONS if re.search(rf"(?<!\w){name}\(", single)]
     standard += [f"from math import {', '.join(functions)}"] if functions else []
     used = {s.name for kernel in kernels for e in kernel.expressions() for s in e.free_symbols}

@@ -17,6 +17,7 @@ from rodproof.codegen.kernel import Assignment, Kernel, Output, log_max, symbol,
 from rodproof.codegen.passes.share import drop_aliases
 from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.targets.printer import ATOM, POWER, PRODUCT, Printer, wrapped
+from rodproof.derivations.symbols import CONSTANTS
 
 INDENT = "    "
 WIDTH = 100
@@ -103,6 +104,43 @@ def body(
         else:
             answer.append(_vector(outputs, printer))
     return Body(tuple(lines), tuple(answer))
+
+
+def hoisted(kernel: Kernel) -> Kernel:
+    """With what a product has in constants alone as constants of its own; a sum has its signs."""
+    plain = _named(kernel)
+    known = {a.symbol for a in kernel.constants} | {symbol(s.name) for s in CONSTANTS}
+    found: dict[sp.Expr, sp.Symbol] = {}
+
+    def named(expr: sp.Expr, *, term: bool = False) -> sp.Expr:
+        if expr.is_Atom:
+            return expr
+        if term and expr.could_extract_minus_sign():
+            return -named(-expr)
+        if expr.is_Mul:
+            fixed, rest = expr.as_independent(*(expr.free_symbols - known), as_Add=False)
+            if not fixed.is_Atom and rest != 1:
+                found.setdefault(fixed, symbol(_constant_name(fixed)))
+                return found[fixed] * named(rest)
+        return expr.func(*(named(arg, term=expr.is_Add) for arg in expr.args))
+
+    changed = {e: named(e) for e in plain.expressions()}
+    return replace(
+        plain,
+        body=tuple(replace(a, expr=changed[a.expr]) for a in plain.body),
+        outputs=tuple(replace(o, expr=changed[o.expr]) for o in plain.outputs),
+        constants=(*plain.constants, *(Assignment(s.name, e) for e, s in found.items())),
+    )
+
+
+def _constant_name(expr: sp.Expr) -> str:
+    """``half_p``, ``minus_per_p``, ``alpha_squared``: a product of constants in words."""
+    number, rest = expr.as_coeff_Mul()
+    words = {1: [], -1: ["minus"], sp.Rational(1, 2): ["half"], -sp.Rational(1, 2): ["minus_half"]}
+    parts: list[str] = words[number]
+    for base, power in sorted(rest.as_powers_dict().items(), key=str):
+        parts = [*parts, f"{base}_squared" if power == 2 else f"{base}"]
+    return "_".join(parts)
 
 
 def returned(answer: Sequence[str], more: str = "") -> list[str]:

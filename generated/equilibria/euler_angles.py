@@ -102,6 +102,24 @@ class Constants:
         """What the plain bodies take."""
         return Plain(self)
 
+    @cached_property
+    def of_strains(self) -> tuple[float, ...]:
+        """What `strains` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_zeta, self.m3_contracts, self.n3_dilates,
+            self.chirality, self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+        )
+
+    @cached_property
+    def of_compliance(self) -> tuple[float, ...]:
+        """What `compliance` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_zeta, self.per_eta, self.m3_contracts,
+            self.n3_dilates, self.chirality, self.gap, self.gamma, self.p, -self.per_p,
+            self.per_alpha**2, self.per_beta**2, self.per_gap, self.per_beta * self.per_eta,
+            self.per_zeta**2, self.per_eta**2,
+        )
+
 
 class Plain:
     """What the plain bodies take, each number rounded once, and the squares where they hold."""
@@ -313,9 +331,16 @@ def _apply(
     return results
 
 
+class _Extreme(ArithmeticError):
+    """A point that plain Python leaves to arrays."""
+
+
 def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
     """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
-    arrays, shape = _arguments(inputs)
+    try:
+        arrays, shape = _arguments(inputs)
+    except ValueError as wrong:
+        raise wrong from None
     if shape:  # tuples of arrays
         return law(*map(np.asarray, inputs.values()), c)
     floats = [a.astype(float).tolist() for a in arrays]
@@ -403,29 +428,31 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None
 
 
 def _strains_at(m: Any, n: Any, c: Constants) -> Any:
-    """`strains` of floats; None where it is left to arrays."""
+    """`strains` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_zeta, m3_contracts, n3_dilates, chirality, gap, gamma, p,
+        minus_per_p, per_eta,
+    ) = c.of_strains
     m1, m2, m3 = m
     n1, n2, n3 = n
-    if not type(m1) is type(m2) is type(m3) is type(n1) is type(n2) is type(n3) is float:
-        return None
-    mu_1, mu_2, mu_3, nu_1 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3, c.per_zeta * n1
-    nu_2 = c.per_zeta * n2
-    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
-    twist = mu_3 - c.chirality * dilatation
+    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
+    nu_2 = per_zeta * n2
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
     q_star = (
-        c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
         + nu_2 * nu_2
     )
-    if not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3)):
-        return None
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+        raise _Extreme
     y = sqrt(q_star)
-    larger = y if y > c.gamma else c.gamma
-    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**c.p
-    factor = exp(-c.per_p * log1p(power)) / larger
-    bend, turn, shear = c.per_alpha * factor, c.per_beta * factor, c.per_zeta * factor
-    extend = c.per_eta * factor
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, turn, shear = per_alpha * factor, per_beta * factor, per_zeta * factor
+    extend = per_eta * factor
     return (
         (bend * mu_1, bend * mu_2, turn * twist),
         (nu_1 * shear, nu_2 * shear, dilatation * extend + 1),
@@ -440,10 +467,10 @@ def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -
     """
     if out is None and type(m) is type(n) is tuple:
         try:
-            answer: Pair | None = _strains_at(m, n, constants)
+            answer: Pair = _strains_at(m, n, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(strains, {"m": m, "n": n}, constants)
+            answer = _one(strains, {"m": m, "n": n}, constants)
+        return answer
     u, v = _apply(_strains, {"m": m, "n": n}, constants, ("u", "v"), out)
     return u, v
 
@@ -548,6 +575,66 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
         soft[i, :i] = soft[:i, i]
 
 
+def _compliance_at(m: Any, n: Any, c: Constants) -> Any:
+    """`compliance` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_zeta, per_eta, m3_contracts, n3_dilates, chirality, gap, gamma, p,
+        minus_per_p, per_alpha_squared, per_beta_squared, per_gap, per_beta_per_eta,
+        per_zeta_squared, per_eta_squared,
+    ) = c.of_compliance
+    m1, m2, m3 = m
+    n1, n2, n3 = n
+    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
+    nu_2, nu_3 = per_zeta * n2, per_eta * n3
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
+    q_star = (
+        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    per_size = 1 / (y if y > LEAST else LEAST)
+    a1, share = per_size * (mu_1 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
+    aa1 = a1 * a1
+    a2, a3, b1, b2 = mu_2 * per_size, mu_3 * per_size, nu_1 * per_size, nu_2 * per_size
+    aa2, aa3, bb1, bb2 = a2 * a2, a3 * a3, b1 * b1, b2 * b2
+    b3, c3, c6, d1 = nu_3 * per_size, per_size * twist, dilatation * per_size, per_alpha * a1
+    cc6 = c6 * c6
+    across = aa1 + aa2 + bb1 + bb2
+    coupled = aa3 + gap * cc6
+    steep = -factor * share
+    d2, d3, d4, d5, d6 = per_alpha * a2, per_beta * c3, per_zeta * b1, per_zeta * b2, per_eta * c6
+    steep_1, steep_2, steep_3, steep_4 = d1 * steep, d2 * steep, d3 * steep, d4 * steep
+    steep_5 = d5 * steep
+    s11, s12 = per_alpha_squared * factor * (aa1 * remain + aa2 + bb1 + bb2 + coupled), d2 * steep_1
+    s13, s14, s15, s16 = d3 * steep_1, d4 * steep_1, d5 * steep_1, d6 * steep_1
+    s22, s23 = per_alpha_squared * factor * (aa1 + aa2 * remain + bb1 + bb2 + coupled), d3 * steep_2
+    s24, s25, s26 = d4 * steep_2, d5 * steep_2, d6 * steep_2
+    s33 = per_beta_squared * factor * (c3 * c3 * remain + per_gap * (across + b3 * b3))
+    s34, s35 = d4 * steep_3, d5 * steep_3
+    s36 = per_beta_per_eta * factor * (c3 * c6 * remain - per_gap * (a3 * b3 + chirality * across))
+    s44, s45 = per_zeta_squared * factor * (aa1 + aa2 + bb1 * remain + bb2 + coupled), d5 * steep_4
+    s46 = d6 * steep_4
+    s55, s56 = per_zeta_squared * factor * (aa1 + aa2 + bb1 + bb2 * remain + coupled), d6 * steep_5
+    s66 = per_eta_squared * factor * (cc6 * remain + per_gap * (aa3 + across))
+    return (
+        (s11, s12, s13, s14, s15, s16),
+        (s12, s22, s23, s24, s25, s26),
+        (s13, s23, s33, s34, s35, s36),
+        (s14, s24, s34, s44, s45, s46),
+        (s15, s25, s35, s45, s55, s56),
+        (s16, s26, s36, s46, s56, s66),
+    )
+
+
 def compliance(m: Given, n: Given, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
 
@@ -555,7 +642,10 @@ def compliance(m: Given, n: Given, constants: Constants, out: Array | None = Non
     Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
     """
     if out is None and type(m) is type(n) is tuple:
-        answer: Array = _one(compliance, {"m": m, "n": n}, constants)
+        try:
+            answer: Array = _compliance_at(m, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(compliance, {"m": m, "n": n}, constants)
         return answer
     (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, ("soft",), out)
     return soft

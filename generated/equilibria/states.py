@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from decimal import MAX_EMAX, MIN_EMIN, Decimal, localcontext
 from fractions import Fraction
 from functools import cache, cached_property
-from math import exp, log1p, sqrt
+from math import exp, expm1, log, log1p, sqrt
 from typing import Any
 
 import numpy as np
@@ -126,6 +126,22 @@ class Constants:
             term *= (k + 1 - 2 * a) / (k + 1) / 9
         start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
         return fraction, powers, start, slope, single
+
+    @cached_property
+    def of_strains(self) -> tuple[float, ...]:
+        """What `strains` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_zeta, self.m3_contracts, self.n3_dilates,
+            self.chirality, self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+        )
+
+    @cached_property
+    def of_complementary_energy(self) -> tuple[float, ...]:
+        """What `complementary_energy` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_zeta, self.m3_contracts, self.n3_dilates,
+            self.gap, self.gamma, self.p, -self.per_p,
+        )
 
 
 class Plain:
@@ -286,6 +302,23 @@ def _work_share(depth: Array, c: Constants) -> Array:
     return share
 
 
+def _work_share_at(depth: float, c: Constants) -> float:
+    """`_work_share` of one point."""
+    fraction, powers, start, slope, single = c.work_share
+    beyond = depth - log(9)
+    if beyond <= 0:
+        growth, value = expm1(depth), 1.0
+        for term in reversed(fraction):
+            value = growth / value * term + 1
+        return 0.5 / value
+    left, rest = exp(-beyond), 0.0
+    for coefficient in reversed(powers):
+        rest = rest * left + coefficient
+    turns = -expm1(min(-slope * beyond, 80)) / slope if slope else beyond
+    inner = exp(-beyond / c.p) * (start + single * turns) - left * rest
+    return inner * exp(-2 / c.p * log1p(-left / 9))
+
+
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
     ready = [*map(np.asarray, inputs.values())]
@@ -367,9 +400,16 @@ def _apply(
     return results
 
 
+class _Extreme(ArithmeticError):
+    """A point that plain Python leaves to arrays."""
+
+
 def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
     """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
-    arrays, shape = _arguments(inputs)
+    try:
+        arrays, shape = _arguments(inputs)
+    except ValueError as wrong:
+        raise wrong from None
     if shape:  # tuples of arrays
         return law(*map(np.asarray, inputs.values()), c)
     floats = [a.astype(float).tolist() for a in arrays]
@@ -457,29 +497,31 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None
 
 
 def _strains_at(m: Any, n: Any, c: Constants) -> Any:
-    """`strains` of floats; None where it is left to arrays."""
+    """`strains` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_zeta, m3_contracts, n3_dilates, chirality, gap, gamma, p,
+        minus_per_p, per_eta,
+    ) = c.of_strains
     m1, m2, m3 = m
     n1, n2, n3 = n
-    if not type(m1) is type(m2) is type(m3) is type(n1) is type(n2) is type(n3) is float:
-        return None
-    mu_1, mu_2, mu_3, nu_1 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3, c.per_zeta * n1
-    nu_2 = c.per_zeta * n2
-    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
-    twist = mu_3 - c.chirality * dilatation
+    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
+    nu_2 = per_zeta * n2
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
     q_star = (
-        c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
         + nu_2 * nu_2
     )
-    if not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3)):
-        return None
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+        raise _Extreme
     y = sqrt(q_star)
-    larger = y if y > c.gamma else c.gamma
-    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**c.p
-    factor = exp(-c.per_p * log1p(power)) / larger
-    bend, turn, shear = c.per_alpha * factor, c.per_beta * factor, c.per_zeta * factor
-    extend = c.per_eta * factor
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, turn, shear = per_alpha * factor, per_beta * factor, per_zeta * factor
+    extend = per_eta * factor
     return (
         (bend * mu_1, bend * mu_2, turn * twist),
         (nu_1 * shear, nu_2 * shear, dilatation * extend + 1),
@@ -494,10 +536,10 @@ def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -
     """
     if out is None and type(m) is type(n) is tuple:
         try:
-            answer: Pair | None = _strains_at(m, n, constants)
+            answer: Pair = _strains_at(m, n, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(strains, {"m": m, "n": n}, constants)
+            answer = _one(strains, {"m": m, "n": n}, constants)
+        return answer
     u, v = _apply(_strains, {"m": m, "n": n}, constants, ("u", "v"), out)
     return u, v
 
@@ -515,6 +557,33 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
     w_star *= y
 
 
+def _complementary_energy_at(m: Any, n: Any, c: Constants) -> Any:
+    """`complementary_energy` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_zeta, m3_contracts, n3_dilates, gap, gamma, p, minus_per_p,
+    ) = c.of_complementary_energy
+    m1, m2, m3 = m
+    n1, n2, n3 = n
+    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
+    nu_2 = per_zeta * n2
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    q_star = (
+        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    strain = factor * y
+    depth = log1p(power) - p * (0.0 if y <= gamma else log(ratio))
+    return strain * y * (1 - _work_share_at(depth, c))
+
+
 def complementary_energy(
     m: Given, n: Given, constants: Constants, out: Array | None = None
 ) -> Array:
@@ -523,7 +592,10 @@ def complementary_energy(
     m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
     """
     if out is None and type(m) is type(n) is tuple:
-        answer: Array = _one(complementary_energy, {"m": m, "n": n}, constants)
+        try:
+            answer: Array = _complementary_energy_at(m, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(complementary_energy, {"m": m, "n": n}, constants)
         return answer
     (w_star,) = _apply(_complementary_energy, {"m": m, "n": n}, constants, ("w_star",), out)
     return w_star

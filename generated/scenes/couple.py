@@ -12,8 +12,8 @@ eq:strainlimiting proved.
 Domain: loads with finite Q*^(1/2).
 
 One point: tuples of numbers (a float for a single component) are answered with tuples of floats,
-in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
-loads and stiffness near the limit, as far as the strains determine them.
+in plain Python, where nothing is extreme. They agree with the arrays' answers within 8 ulps of
+the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                26    4    0    5
@@ -29,7 +29,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from math import exp, log1p, sqrt
+from math import exp, expm1, log, log1p, sqrt
 from typing import Any
 
 import numpy as np
@@ -130,6 +130,38 @@ class Constants:
             term *= (k + 1 - 2 * a) / (k + 1) / 9
         start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
         return fraction, powers, start, slope, single
+
+    @cached_property
+    def of_strains(self) -> tuple[float, ...]:
+        """What `strains` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, -self.m3_contracts, self.chirality, self.gap, self.gamma,
+            self.p, -self.per_p, self.per_eta,
+        )
+
+    @cached_property
+    def of_complementary_energy(self) -> tuple[float, ...]:
+        """What `complementary_energy` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, -self.m3_contracts, self.gap, self.gamma, self.p,
+            -self.per_p,
+        )
+
+    @cached_property
+    def of_compliance(self) -> tuple[float, ...]:
+        """What `compliance` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, -self.m3_contracts, self.chirality, self.gap, self.gamma,
+            self.p, -self.per_p, self.per_alpha**2, self.per_beta**2, self.per_gap,
+        )
+
+    @cached_property
+    def of_strains_and_gap(self) -> tuple[float, ...]:
+        """What `strains_and_gap` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, -self.m3_contracts, self.chirality, self.gap, self.gamma,
+            self.p, -self.per_p, self.per_eta,
+        )
 
 
 class Plain:
@@ -282,6 +314,23 @@ def _work_share(depth: Array, c: Constants) -> Array:
     return share
 
 
+def _work_share_at(depth: float, c: Constants) -> float:
+    """`_work_share` of one point."""
+    fraction, powers, start, slope, single = c.work_share
+    beyond = depth - log(9)
+    if beyond <= 0:
+        growth, value = expm1(depth), 1.0
+        for term in reversed(fraction):
+            value = growth / value * term + 1
+        return 0.5 / value
+    left, rest = exp(-beyond), 0.0
+    for coefficient in reversed(powers):
+        rest = rest * left + coefficient
+    turns = -expm1(min(-slope * beyond, 80)) / slope if slope else beyond
+    inner = exp(-beyond / c.p) * (start + single * turns) - left * rest
+    return inner * exp(-2 / c.p * log1p(-left / 9))
+
+
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
     ready = [*map(np.asarray, inputs.values())]
@@ -363,9 +412,16 @@ def _apply(
     return results
 
 
+class _Extreme(ArithmeticError):
+    """A point that plain Python leaves to arrays."""
+
+
 def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
     """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
-    arrays, shape = _arguments(inputs)
+    try:
+        arrays, shape = _arguments(inputs)
+    except ValueError as wrong:
+        raise wrong from None
     if shape:  # tuples of arrays
         return law(*map(np.asarray, inputs.values()), c)
     floats = [a.astype(float).tolist() for a in arrays]
@@ -442,23 +498,24 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> Non
 
 
 def _strains_at(m: Any, c: Constants) -> Any:
-    """`strains` of floats; None where it is left to arrays."""
+    """`strains` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, minus_m3_contracts, chirality, gap, gamma, p, minus_per_p, per_eta,
+    ) = c.of_strains
     m1, m2, m3 = m
-    if not type(m1) is type(m2) is type(m3) is float:
-        return None
-    mu_1, mu_2, mu_3 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3
-    dilatation = -c.m3_contracts * m3
-    twist = mu_3 - c.chirality * dilatation
-    q_star = c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if not LOW < q_star < HIGH and any((m1, m2, m3)):
-        return None
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    dilatation = minus_m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
+    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+        raise _Extreme
     y = sqrt(q_star)
-    larger = y if y > c.gamma else c.gamma
-    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**c.p
-    factor = exp(-c.per_p * log1p(power)) / larger
-    bend, turn, extend = c.per_alpha * factor, c.per_beta * factor, c.per_eta * factor
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, turn, extend = per_alpha * factor, per_beta * factor, per_eta * factor
     return (bend * mu_1, bend * mu_2, turn * twist), dilatation * extend + 1
 
 
@@ -470,10 +527,10 @@ def strains(m: Given, constants: Constants, out: Pair | None = None) -> Pair:
     """
     if out is None and type(m) is tuple:
         try:
-            answer: Pair | None = _strains_at(m, constants)
+            answer: Pair = _strains_at(m, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(strains, {"m": m}, constants)
+            answer = _one(strains, {"m": m}, constants)
+        return answer
     u, v3 = _apply(_strains, {"m": m}, constants, ("u", "v3"), out)
     return u, v3
 
@@ -491,13 +548,36 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
     w_star *= y
 
 
+def _complementary_energy_at(m: Any, c: Constants) -> Any:
+    """`complementary_energy` of floats, where nothing is extreme."""
+    per_alpha, per_beta, minus_m3_contracts, gap, gamma, p, minus_per_p = c.of_complementary_energy
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    dilatation = minus_m3_contracts * m3
+    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    strain = factor * y
+    depth = log1p(power) - p * (0.0 if y <= gamma else log(ratio))
+    return strain * y * (1 - _work_share_at(depth, c))
+
+
 def complementary_energy(m: Given, constants: Constants, out: Array | None = None) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
     m (3, ...) in force times length, with Q*^(1/2) finite.
     """
     if out is None and type(m) is tuple:
-        answer: Array = _one(complementary_energy, {"m": m}, constants)
+        try:
+            answer: Array = _complementary_energy_at(m, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(complementary_energy, {"m": m}, constants)
         return answer
     (w_star,) = _apply(_complementary_energy, {"m": m}, constants, ("w_star",), out)
     return w_star
@@ -561,6 +641,47 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
         soft[i, :i] = soft[:i, i]
 
 
+def _compliance_at(m: Any, c: Constants) -> Any:
+    """`compliance` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, minus_m3_contracts, chirality, gap, gamma, p, minus_per_p,
+        per_alpha_squared, per_beta_squared, per_gap,
+    ) = c.of_compliance
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    dilatation = minus_m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
+    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    per_size = 1 / (y if y > LEAST else LEAST)
+    a1, share = per_size * (mu_1 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
+    aa1 = a1 * a1
+    a2, a3, c3, c6 = mu_2 * per_size, mu_3 * per_size, per_size * twist, dilatation * per_size
+    aa2 = a2 * a2
+    across = aa1 + aa2
+    coupled = a3 * a3 + gap * c6 * c6
+    steep = -factor * share
+    d1, d2, d3 = per_alpha * a1, per_alpha * a2, per_beta * c3
+    steep_1, steep_2 = d1 * steep, d2 * steep
+    s11, s12 = per_alpha_squared * factor * (aa1 * remain + aa2 + coupled), d2 * steep_1
+    s13 = d3 * steep_1
+    s22, s23 = per_alpha_squared * factor * (aa1 + aa2 * remain + coupled), d3 * steep_2
+    s33 = per_beta_squared * factor * (per_gap * across + c3 * c3 * remain)
+    return (
+        (s11, s12, s13),
+        (s12, s22, s23),
+        (s13, s23, s33),
+    )
+
+
 def compliance(m: Given, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d u/d m, (3, 3, ...), symmetric positive definite (Section 3.4).
 
@@ -568,7 +689,10 @@ def compliance(m: Given, constants: Constants, out: Array | None = None) -> Arra
     Rows and columns are ordered (u1, u2, u3) and (m1, m2, m3).
     """
     if out is None and type(m) is tuple:
-        answer: Array = _one(compliance, {"m": m}, constants)
+        try:
+            answer: Array = _compliance_at(m, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(compliance, {"m": m}, constants)
         return answer
     (soft,) = _apply(_compliance, {"m": m}, constants, ("soft",), out)
     return soft
@@ -638,6 +762,29 @@ def _strains_and_gap(
     limit_gap[...] = remain
 
 
+def _strains_and_gap_at(m: Any, c: Constants) -> Any:
+    """`strains_and_gap` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, minus_m3_contracts, chirality, gap, gamma, p, minus_per_p, per_eta,
+    ) = c.of_strains_and_gap
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    dilatation = minus_m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
+    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, turn, extend = per_alpha * factor, per_beta * factor, per_eta * factor
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    return (bend * mu_1, bend * mu_2, turn * twist), dilatation * extend + 1, remain
+
+
 def strains_and_gap(m: Given, constants: Constants, out: Triple | None = None) -> Triple:
     """Strains u, v3 under the loads m, and 1 - Q^(p/2).
 
@@ -646,7 +793,10 @@ def strains_and_gap(m: Given, constants: Constants, out: Triple | None = None) -
     near the limit it says what the strains no longer can.
     """
     if out is None and type(m) is tuple:
-        answer: Triple = _one(strains_and_gap, {"m": m}, constants)
+        try:
+            answer: Triple = _strains_and_gap_at(m, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(strains_and_gap, {"m": m}, constants)
         return answer
     u, v3, limit_gap = _apply(_strains_and_gap, {"m": m}, constants, ("u", "v3", "limit_gap"), out)
     return u, v3, limit_gap

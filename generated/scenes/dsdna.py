@@ -14,8 +14,8 @@ hess-m3-u3 refuted; hess-m3-v3 refuted; hess-n3-v3 reading; wstar-gradient Secti
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
 One point: tuples of numbers (a float for a single component) are answered with tuples of floats,
-in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
-loads and stiffness near the limit, as far as the strains determine them.
+in plain Python, where nothing is extreme. They agree with the arrays' answers within 8 ulps of
+the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                28    4    0    5
@@ -172,6 +172,72 @@ class Constants:
             iota=coupling / gamma,
             gamma=gamma,
             p=p,
+        )
+
+    @cached_property
+    def of_strains(self) -> tuple[float, ...]:
+        """What `strains` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.m3_contracts, self.n3_dilates, self.chirality,
+            self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+        )
+
+    @cached_property
+    def of_loads(self) -> tuple[float, ...]:
+        """What `loads` of one point takes."""
+        return (
+            self.alpha, self.beta, self.eta, self.chirality, self.gap, -0.5 * self.p, self.gamma,
+            self.per_p,
+        )
+
+    @cached_property
+    def of_stored_energy(self) -> tuple[float, ...]:
+        """What `stored_energy` of one point takes."""
+        return (
+            self.alpha, self.beta, self.eta, self.chirality, self.gap, -0.5 * self.p, self.gamma,
+            self.per_p, self.p,
+        )
+
+    @cached_property
+    def of_complementary_energy(self) -> tuple[float, ...]:
+        """What `complementary_energy` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.m3_contracts, self.n3_dilates, self.gap, self.gamma,
+            self.p, -self.per_p,
+        )
+
+    @cached_property
+    def of_loads_and_stiffness(self) -> tuple[float, ...]:
+        """What `loads_and_stiffness` of one point takes."""
+        return (
+            self.alpha, self.beta, self.eta, self.chirality, self.gap, -0.5 * self.p, self.gamma,
+            self.per_p, self.alpha**2, self.beta**2, self.iota, self.eta**2,
+        )
+
+    @cached_property
+    def of_compliance(self) -> tuple[float, ...]:
+        """What `compliance` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_eta, self.m3_contracts, self.n3_dilates,
+            self.chirality, self.gap, self.gamma, self.p, -self.per_p, self.per_alpha**2,
+            self.per_beta**2, self.per_gap, self.per_beta * self.per_eta, self.per_eta**2,
+        )
+
+    @cached_property
+    def of_strains_and_gap(self) -> tuple[float, ...]:
+        """What `strains_and_gap` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.m3_contracts, self.n3_dilates, self.chirality,
+            self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+        )
+
+    @cached_property
+    def of_stiffness_at_loads(self) -> tuple[float, ...]:
+        """What `stiffness_at_loads` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_eta, self.m3_contracts, self.n3_dilates,
+            self.gap, 0.5 * self.p, self.per_gamma, self.gamma, self.per_p, self.alpha, self.beta,
+            self.eta, self.alpha**2, self.beta**2, self.iota, self.eta**2,
         )
 
 
@@ -391,6 +457,23 @@ def _work_share(depth: Array, c: Constants) -> Array:
     return share
 
 
+def _work_share_at(depth: float, c: Constants) -> float:
+    """`_work_share` of one point."""
+    fraction, powers, start, slope, single = c.work_share
+    beyond = depth - log(9)
+    if beyond <= 0:
+        growth, value = expm1(depth), 1.0
+        for term in reversed(fraction):
+            value = growth / value * term + 1
+        return 0.5 / value
+    left, rest = exp(-beyond), 0.0
+    for coefficient in reversed(powers):
+        rest = rest * left + coefficient
+    turns = -expm1(min(-slope * beyond, 80)) / slope if slope else beyond
+    inner = exp(-beyond / c.p) * (start + single * turns) - left * rest
+    return inner * exp(-2 / c.p * log1p(-left / 9))
+
+
 class _PastLimit(Exception):
     """Some strains have Q >= 1."""
 
@@ -498,9 +581,16 @@ def _apply(
     return results
 
 
+class _Extreme(ArithmeticError):
+    """A point that plain Python leaves to arrays."""
+
+
 def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
     """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
-    arrays, shape = _arguments(inputs)
+    try:
+        arrays, shape = _arguments(inputs)
+    except ValueError as wrong:
+        raise wrong from None
     if shape:  # tuples of arrays
         return law(*map(np.asarray, inputs.values()), c)
     floats = [a.astype(float).tolist() for a in arrays]
@@ -578,23 +668,25 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> Non
 
 
 def _strains_at(m: Any, n3: Any, c: Constants) -> Any:
-    """`strains` of floats; None where it is left to arrays."""
+    """`strains` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, m3_contracts, n3_dilates, chirality, gap, gamma, p, minus_per_p,
+        per_eta,
+    ) = c.of_strains
     m1, m2, m3 = m
-    if not type(m1) is type(m2) is type(m3) is type(n3) is float:
-        return None
-    mu_1, mu_2, mu_3 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3
-    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
-    twist = mu_3 - c.chirality * dilatation
-    q_star = c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if not LOW < q_star < HIGH and any((m1, m2, m3, n3)):
-        return None
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
+    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n3))):
+        raise _Extreme
     y = sqrt(q_star)
-    larger = y if y > c.gamma else c.gamma
-    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**c.p
-    factor = exp(-c.per_p * log1p(power)) / larger
-    bend, turn, extend = c.per_alpha * factor, c.per_beta * factor, c.per_eta * factor
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, turn, extend = per_alpha * factor, per_beta * factor, per_eta * factor
     return (bend * mu_1, bend * mu_2, turn * twist), dilatation * extend + 1
 
 
@@ -606,10 +698,10 @@ def strains(m: Given, n3: Given | float, constants: Constants, out: Pair | None 
     """
     if out is None and type(m) is tuple and type(n3) is float:
         try:
-            answer: Pair | None = _strains_at(m, n3, constants)
+            answer: Pair = _strains_at(m, n3, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(strains, {"m": m, "n3": n3}, constants)
+            answer = _one(strains, {"m": m, "n3": n3}, constants)
+        return answer
     u, v3 = _apply(_strains, {"m": m, "n3": n3}, constants, ("u", "v3"), out)
     return u, v3
 
@@ -673,22 +765,21 @@ def _loads(strains: Rows, c: Constants, work: Array, m: Array, n3: Array) -> Non
 
 
 def _loads_at(u: Any, v3: Any, c: Constants) -> Any:
-    """`loads` of floats; None where it is left to arrays."""
+    """`loads` of floats, where nothing is extreme."""
+    alpha, beta, eta, chirality, gap, minus_half_p, gamma, per_p = c.of_loads
     u1, u2, u3 = u
-    if not type(u1) is type(u2) is type(u3) is type(v3) is float:
-        return None
     stretch = v3 - 1
-    kappa_1, kappa_2, kappa_3, lam_3 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.eta * stretch
-    torque = c.chirality * lam_3 + kappa_3
-    tension = c.chirality * torque + c.gap * lam_3
-    q = c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + torque * torque
-    if not LOW < q < 1 and any((u1, u2, u3, stretch)):
-        return None
-    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    kappa_1, kappa_2, kappa_3, lam_3 = alpha * u1, alpha * u2, beta * u3, eta * stretch
+    torque = chirality * lam_3 + kappa_3
+    tension = chirality * torque + gap * lam_3
+    q = gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + torque * torque
+    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, stretch))):
+        raise _Extreme
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
     growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = log1p(growth)
-    factor = c.gamma * exp(c.per_p * depth)
-    bend, turn, extend = c.alpha * factor, c.beta * factor, c.eta * factor
+    factor = gamma * exp(per_p * depth)
+    bend, turn, extend = alpha * factor, beta * factor, eta * factor
     return (bend * kappa_1, bend * kappa_2, torque * turn), extend * tension
 
 
@@ -701,10 +792,10 @@ def loads(u: Given, v3: Given | float, constants: Constants, out: Pair | None = 
     """
     if out is None and type(u) is tuple and type(v3) is float:
         try:
-            answer: Pair | None = _loads_at(u, v3, constants)
+            answer: Pair = _loads_at(u, v3, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(loads, {"u": u, "v3": v3}, constants)
+            answer = _one(loads, {"u": u, "v3": v3}, constants)
+        return answer
     m, n3 = _apply(_loads, {"u": u, "v3": v3}, constants, ("m", "n3"), out)
     return m, n3
 
@@ -721,6 +812,25 @@ def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
     w *= _work_share(depth, c)
 
 
+def _stored_energy_at(u: Any, v3: Any, c: Constants) -> Any:
+    """`stored_energy` of floats, where nothing is extreme."""
+    alpha, beta, eta, chirality, gap, minus_half_p, gamma, per_p, p = c.of_stored_energy
+    u1, u2, u3 = u
+    stretch = v3 - 1
+    kappa_1, kappa_2, kappa_3, lam_3 = alpha * u1, alpha * u2, beta * u3, eta * stretch
+    torque = chirality * lam_3 + kappa_3
+    q = gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + torque * torque
+    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, stretch))):
+        raise _Extreme
+    x = sqrt(q)
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
+    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
+    depth = log1p(growth)
+    factor = gamma * exp(per_p * depth)
+    load = factor * x
+    return load * x * _work_share_at(depth, c)
+
+
 def stored_energy(
     u: Given, v3: Given | float, constants: Constants, out: Array | None = None
 ) -> Array:
@@ -729,7 +839,10 @@ def stored_energy(
     u (3, ...) in 1/length, v3 (...) plain, with Q < 1 (eq:strainlimiting).
     """
     if out is None and type(u) is tuple and type(v3) is float:
-        answer: Array = _one(stored_energy, {"u": u, "v3": v3}, constants)
+        try:
+            answer: Array = _stored_energy_at(u, v3, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(stored_energy, {"u": u, "v3": v3}, constants)
         return answer
     (w,) = _apply(_stored_energy, {"u": u, "v3": v3}, constants, ("w",), out)
     return w
@@ -748,6 +861,28 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
     w_star *= y
 
 
+def _complementary_energy_at(m: Any, n3: Any, c: Constants) -> Any:
+    """`complementary_energy` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, m3_contracts, n3_dilates, gap, gamma, p, minus_per_p,
+    ) = c.of_complementary_energy
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    strain = factor * y
+    depth = log1p(power) - p * (0.0 if y <= gamma else log(ratio))
+    return strain * y * (1 - _work_share_at(depth, c))
+
+
 def complementary_energy(
     m: Given, n3: Given | float, constants: Constants, out: Array | None = None
 ) -> Array:
@@ -756,7 +891,10 @@ def complementary_energy(
     m (3, ...) in force times length, n3 (...) in force, with Q*^(1/2) finite.
     """
     if out is None and type(m) is tuple and type(n3) is float:
-        answer: Array = _one(complementary_energy, {"m": m, "n3": n3}, constants)
+        try:
+            answer: Array = _complementary_energy_at(m, n3, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(complementary_energy, {"m": m, "n3": n3}, constants)
         return answer
     (w_star,) = _apply(_complementary_energy, {"m": m, "n3": n3}, constants, ("w_star",), out)
     return w_star
@@ -848,9 +986,8 @@ def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
 
 
 def _stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
-    """`stiffness` of floats; None where it is left to arrays."""
-    whole = _loads_and_stiffness_at(u, v3, c)
-    return whole and whole[-1]
+    """`stiffness` of floats, where nothing is extreme."""
+    return _loads_and_stiffness_at(u, v3, c)[-1]
 
 
 def stiffness(u: Given, v3: Given | float, constants: Constants, out: Array | None = None) -> Array:
@@ -861,10 +998,10 @@ def stiffness(u: Given, v3: Given | float, constants: Constants, out: Array | No
     """
     if out is None and type(u) is tuple and type(v3) is float:
         try:
-            answer: Array | None = _stiffness_at(u, v3, constants)
+            answer: Array = _stiffness_at(u, v3, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(stiffness, {"u": u, "v3": v3}, constants)
+            answer = _one(stiffness, {"u": u, "v3": v3}, constants)
+        return answer
     (stiff,) = _apply(_stiffness, {"u": u, "v3": v3}, constants, ("stiff",), out)
     return stiff
 
@@ -968,33 +1105,35 @@ def _loads_and_stiffness(
 
 
 def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
-    """`loads_and_stiffness` of floats; None where it is left to arrays."""
+    """`loads_and_stiffness` of floats, where nothing is extreme."""
+    (
+        alpha, beta, eta, chirality, gap, minus_half_p, gamma, per_p, alpha_squared, beta_squared,
+        iota, eta_squared,
+    ) = c.of_loads_and_stiffness
     u1, u2, u3 = u
-    if not type(u1) is type(u2) is type(u3) is type(v3) is float:
-        return None
     stretch = v3 - 1
-    kappa_1, kappa_2, kappa_3, lam_3 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.eta * stretch
-    torque = c.chirality * lam_3 + kappa_3
-    tension = c.chirality * torque + c.gap * lam_3
-    q = c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + torque * torque
-    if not LOW < q < 1 and any((u1, u2, u3, stretch)):
-        return None
+    kappa_1, kappa_2, kappa_3, lam_3 = alpha * u1, alpha * u2, beta * u3, eta * stretch
+    torque = chirality * lam_3 + kappa_3
+    tension = chirality * torque + gap * lam_3
+    q = gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + torque * torque
+    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, stretch))):
+        raise _Extreme
     x = sqrt(q)
-    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
     growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = log1p(growth)
-    factor = c.gamma * exp(c.per_p * depth)
-    steep, bend, turn, extend = factor * growth, c.alpha * factor, c.beta * factor, c.eta * factor
+    factor = gamma * exp(per_p * depth)
+    steep, bend, turn, extend = factor * growth, alpha * factor, beta * factor, eta * factor
     per_size = 1 / (x if x > LEAST else LEAST)
-    bend_per_size, turn_per_size = c.alpha * per_size, c.beta * per_size
-    extend_per_size, t1, t2 = c.eta * per_size, bend_per_size * kappa_1, bend_per_size * kappa_2
+    bend_per_size, turn_per_size = alpha * per_size, beta * per_size
+    extend_per_size, t1, t2 = eta * per_size, bend_per_size * kappa_1, bend_per_size * kappa_2
     t3, t6, steep_1 = torque * turn_per_size, extend_per_size * tension, steep * t1
     steep_2, steep_3, steep_4 = steep * t2, steep * t3, steep * t6
-    k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
+    k11, k12, k13 = alpha_squared * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
     k14 = steep_1 * t6
-    k22, k23, k24 = c.alpha * c.alpha * factor + steep_2 * t2, steep_2 * t3, steep_2 * t6
-    k33, k34 = c.beta * c.beta * factor + steep_3 * t3, c.iota * factor + steep_3 * t6
-    k44 = c.eta * c.eta * factor + steep_4 * t6
+    k22, k23, k24 = alpha_squared * factor + steep_2 * t2, steep_2 * t3, steep_2 * t6
+    k33, k34 = beta_squared * factor + steep_3 * t3, iota * factor + steep_3 * t6
+    k44 = eta_squared * factor + steep_4 * t6
     stiff = (
         (k11, k12, k13, k14),
         (k12, k22, k23, k24),
@@ -1016,10 +1155,10 @@ def loads_and_stiffness(
     """
     if out is None and type(u) is tuple and type(v3) is float:
         try:
-            answer: Triple | None = _loads_and_stiffness_at(u, v3, constants)
+            answer: Triple = _loads_and_stiffness_at(u, v3, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(loads_and_stiffness, {"u": u, "v3": v3}, constants)
+            answer = _one(loads_and_stiffness, {"u": u, "v3": v3}, constants)
+        return answer
     m, n3, stiff = _apply(
         _loads_and_stiffness, {"u": u, "v3": v3}, constants, ("m", "n3", "stiff"), out
     )
@@ -1102,6 +1241,53 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
         soft[i, :i] = soft[:i, i]
 
 
+def _compliance_at(m: Any, n3: Any, c: Constants) -> Any:
+    """`compliance` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_eta, m3_contracts, n3_dilates, chirality, gap, gamma, p,
+        minus_per_p, per_alpha_squared, per_beta_squared, per_gap, per_beta_per_eta,
+        per_eta_squared,
+    ) = c.of_compliance
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3, nu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_eta * n3
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
+    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    per_size = 1 / (y if y > LEAST else LEAST)
+    a1, share = per_size * (mu_1 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
+    aa1 = a1 * a1
+    a2, a3, b3, c3 = mu_2 * per_size, mu_3 * per_size, nu_3 * per_size, per_size * twist
+    aa2, aa3 = a2 * a2, a3 * a3
+    c6, d1, d2, d3 = dilatation * per_size, per_alpha * a1, per_alpha * a2, per_beta * c3
+    cc6 = c6 * c6
+    across = aa1 + aa2
+    coupled = aa3 + gap * cc6
+    steep = -factor * share
+    d6, steep_1, steep_2 = per_eta * c6, d1 * steep, d2 * steep
+    s11, s12 = per_alpha_squared * factor * (aa1 * remain + aa2 + coupled), d2 * steep_1
+    s13, s14 = d3 * steep_1, d6 * steep_1
+    s22, s23 = per_alpha_squared * factor * (aa1 + aa2 * remain + coupled), d3 * steep_2
+    s24 = d6 * steep_2
+    s33 = per_beta_squared * factor * (c3 * c3 * remain + per_gap * (across + b3 * b3))
+    s34 = per_beta_per_eta * factor * (c3 * c6 * remain - per_gap * (a3 * b3 + chirality * across))
+    s44 = per_eta_squared * factor * (cc6 * remain + per_gap * (aa3 + across))
+    return (
+        (s11, s12, s13, s14),
+        (s12, s22, s23, s24),
+        (s13, s23, s33, s34),
+        (s14, s24, s34, s44),
+    )
+
+
 def compliance(
     m: Given, n3: Given | float, constants: Constants, out: Array | None = None
 ) -> Array:
@@ -1111,7 +1297,10 @@ def compliance(
     Rows and columns are ordered (u1, u2, u3, v3) and (m1, m2, m3, n3).
     """
     if out is None and type(m) is tuple and type(n3) is float:
-        answer: Array = _one(compliance, {"m": m, "n3": n3}, constants)
+        try:
+            answer: Array = _compliance_at(m, n3, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(compliance, {"m": m, "n3": n3}, constants)
         return answer
     (soft,) = _apply(_compliance, {"m": m, "n3": n3}, constants, ("soft",), out)
     return soft
@@ -1182,6 +1371,30 @@ def _strains_and_gap(
     limit_gap[...] = remain
 
 
+def _strains_and_gap_at(m: Any, n3: Any, c: Constants) -> Any:
+    """`strains_and_gap` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, m3_contracts, n3_dilates, chirality, gap, gamma, p, minus_per_p,
+        per_eta,
+    ) = c.of_strains_and_gap
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
+    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, turn, extend = per_alpha * factor, per_beta * factor, per_eta * factor
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    return (bend * mu_1, bend * mu_2, turn * twist), dilatation * extend + 1, remain
+
+
 def strains_and_gap(
     m: Given, n3: Given | float, constants: Constants, out: Triple | None = None
 ) -> Triple:
@@ -1192,7 +1405,10 @@ def strains_and_gap(
     near the limit it says what the strains no longer can.
     """
     if out is None and type(m) is tuple and type(n3) is float:
-        answer: Triple = _one(strains_and_gap, {"m": m, "n3": n3}, constants)
+        try:
+            answer: Triple = _strains_and_gap_at(m, n3, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(strains_and_gap, {"m": m, "n3": n3}, constants)
         return answer
     u, v3, limit_gap = _apply(
         _strains_and_gap, {"m": m, "n3": n3}, constants, ("u", "v3", "limit_gap"), out
@@ -1278,6 +1494,43 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
         stiff[i, :i] = stiff[:i, i]
 
 
+def _stiffness_at_loads_at(m: Any, n3: Any, c: Constants) -> Any:
+    """`stiffness_at_loads` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_eta, m3_contracts, n3_dilates, gap, half_p, per_gamma, gamma,
+        per_p, alpha, beta, eta, alpha_squared, beta_squared, iota, eta_squared,
+    ) = c.of_stiffness_at_loads
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3, nu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_eta * n3
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    raw_1 = per_gamma * y
+    rise = (raw_1 if raw_1 > LEAST else LEAST)**half_p
+    raw_2 = 1 / (rise if rise > LEAST else LEAST)
+    half = raw_2 if raw_2 < rise else rise
+    power = half * half
+    factor = exp(per_p * log1p(power)) * (y if y > gamma else gamma)
+    rise_per_size = rise / (y if y > LEAST else LEAST)
+    bend_rise, turn_rise = alpha * rise_per_size, beta * rise_per_size
+    extend_rise, h1, h2 = eta * rise_per_size, bend_rise * mu_1, bend_rise * mu_2
+    h3, h6, factor_1, factor_2 = mu_3 * turn_rise, extend_rise * nu_3, factor * h1, factor * h2
+    factor_3, factor_4 = factor * h3, factor * h6
+    k11, k12, k13 = alpha_squared * factor + factor_1 * h1, factor_1 * h2, factor_1 * h3
+    k14 = factor_1 * h6
+    k22, k23, k24 = alpha_squared * factor + factor_2 * h2, factor_2 * h3, factor_2 * h6
+    k33, k34 = beta_squared * factor + factor_3 * h3, iota * factor + factor_3 * h6
+    k44 = eta_squared * factor + factor_4 * h6
+    return (
+        (k11, k12, k13, k14),
+        (k12, k22, k23, k24),
+        (k13, k23, k33, k34),
+        (k14, k24, k34, k44),
+    )
+
+
 def stiffness_at_loads(
     m: Given, n3: Given | float, constants: Constants, out: Array | None = None
 ) -> Array:
@@ -1288,7 +1541,10 @@ def stiffness_at_loads(
     The inverse of the compliance; it holds where strains no longer tell the loads.
     """
     if out is None and type(m) is tuple and type(n3) is float:
-        answer: Array = _one(stiffness_at_loads, {"m": m, "n3": n3}, constants)
+        try:
+            answer: Array = _stiffness_at_loads_at(m, n3, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(stiffness_at_loads, {"m": m, "n3": n3}, constants)
         return answer
     (stiff,) = _apply(_stiffness_at_loads, {"m": m, "n3": n3}, constants, ("stiff",), out)
     return stiff

@@ -14,8 +14,8 @@ reading; wstar-gradient Section 3.1 proved.
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
 One point: tuples of numbers (a float for a single component) are answered with tuples of floats,
-in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
-loads and stiffness near the limit, as far as the strains determine them.
+in plain Python, where nothing is extreme. They agree with the arrays' answers within 8 ulps of
+the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                36    4    0    6
@@ -152,6 +152,75 @@ class Constants:
             term *= (k + 1 - 2 * a) / (k + 1) / 9
         start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
         return fraction, powers, start, slope, single
+
+    @cached_property
+    def of_strains(self) -> tuple[float, ...]:
+        """What `strains` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_zeta, self.m3_contracts, self.n3_dilates,
+            self.chirality, self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+        )
+
+    @cached_property
+    def of_loads(self) -> tuple[float, ...]:
+        """What `loads` of one point takes."""
+        return (
+            self.alpha, self.beta, self.zeta, self.eta, self.chirality, self.gap, -0.5 * self.p,
+            self.gamma, self.per_p,
+        )
+
+    @cached_property
+    def of_stored_energy(self) -> tuple[float, ...]:
+        """What `stored_energy` of one point takes."""
+        return (
+            self.alpha, self.beta, self.zeta, self.eta, self.chirality, self.gap, -0.5 * self.p,
+            self.gamma, self.per_p, self.p,
+        )
+
+    @cached_property
+    def of_complementary_energy(self) -> tuple[float, ...]:
+        """What `complementary_energy` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_zeta, self.m3_contracts, self.n3_dilates,
+            self.gap, self.gamma, self.p, -self.per_p,
+        )
+
+    @cached_property
+    def of_loads_and_stiffness(self) -> tuple[float, ...]:
+        """What `loads_and_stiffness` of one point takes."""
+        return (
+            self.alpha, self.beta, self.zeta, self.eta, self.chirality, self.gap, -0.5 * self.p,
+            self.gamma, self.per_p, self.alpha**2, self.beta**2, self.iota, self.zeta**2,
+            self.eta**2,
+        )
+
+    @cached_property
+    def of_compliance(self) -> tuple[float, ...]:
+        """What `compliance` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_zeta, self.per_eta, self.m3_contracts,
+            self.n3_dilates, self.chirality, self.gap, self.gamma, self.p, -self.per_p,
+            self.per_alpha**2, self.per_beta**2, self.per_gap, self.per_beta * self.per_eta,
+            self.per_zeta**2, self.per_eta**2,
+        )
+
+    @cached_property
+    def of_strains_and_gap(self) -> tuple[float, ...]:
+        """What `strains_and_gap` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_zeta, self.m3_contracts, self.n3_dilates,
+            self.chirality, self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+        )
+
+    @cached_property
+    def of_stiffness_at_loads(self) -> tuple[float, ...]:
+        """What `stiffness_at_loads` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.per_zeta, self.per_eta, self.m3_contracts,
+            self.n3_dilates, self.gap, 0.5 * self.p, self.per_gamma, self.gamma, self.per_p,
+            self.alpha, self.beta, self.zeta, self.eta, self.alpha**2, self.beta**2, self.iota,
+            self.zeta**2, self.eta**2,
+        )
 
 
 class Plain:
@@ -381,6 +450,23 @@ def _work_share(depth: Array, c: Constants) -> Array:
     return share
 
 
+def _work_share_at(depth: float, c: Constants) -> float:
+    """`_work_share` of one point."""
+    fraction, powers, start, slope, single = c.work_share
+    beyond = depth - log(9)
+    if beyond <= 0:
+        growth, value = expm1(depth), 1.0
+        for term in reversed(fraction):
+            value = growth / value * term + 1
+        return 0.5 / value
+    left, rest = exp(-beyond), 0.0
+    for coefficient in reversed(powers):
+        rest = rest * left + coefficient
+    turns = -expm1(min(-slope * beyond, 80)) / slope if slope else beyond
+    inner = exp(-beyond / c.p) * (start + single * turns) - left * rest
+    return inner * exp(-2 / c.p * log1p(-left / 9))
+
+
 class _PastLimit(Exception):
     """Some strains have Q >= 1."""
 
@@ -488,9 +574,16 @@ def _apply(
     return results
 
 
+class _Extreme(ArithmeticError):
+    """A point that plain Python leaves to arrays."""
+
+
 def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
     """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
-    arrays, shape = _arguments(inputs)
+    try:
+        arrays, shape = _arguments(inputs)
+    except ValueError as wrong:
+        raise wrong from None
     if shape:  # tuples of arrays
         return law(*map(np.asarray, inputs.values()), c)
     floats = [a.astype(float).tolist() for a in arrays]
@@ -578,29 +671,31 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None
 
 
 def _strains_at(m: Any, n: Any, c: Constants) -> Any:
-    """`strains` of floats; None where it is left to arrays."""
+    """`strains` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_zeta, m3_contracts, n3_dilates, chirality, gap, gamma, p,
+        minus_per_p, per_eta,
+    ) = c.of_strains
     m1, m2, m3 = m
     n1, n2, n3 = n
-    if not type(m1) is type(m2) is type(m3) is type(n1) is type(n2) is type(n3) is float:
-        return None
-    mu_1, mu_2, mu_3, nu_1 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3, c.per_zeta * n1
-    nu_2 = c.per_zeta * n2
-    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
-    twist = mu_3 - c.chirality * dilatation
+    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
+    nu_2 = per_zeta * n2
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
     q_star = (
-        c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
         + nu_2 * nu_2
     )
-    if not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3)):
-        return None
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+        raise _Extreme
     y = sqrt(q_star)
-    larger = y if y > c.gamma else c.gamma
-    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**c.p
-    factor = exp(-c.per_p * log1p(power)) / larger
-    bend, turn, shear = c.per_alpha * factor, c.per_beta * factor, c.per_zeta * factor
-    extend = c.per_eta * factor
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, turn, shear = per_alpha * factor, per_beta * factor, per_zeta * factor
+    extend = per_eta * factor
     return (
         (bend * mu_1, bend * mu_2, turn * twist),
         (nu_1 * shear, nu_2 * shear, dilatation * extend + 1),
@@ -615,10 +710,10 @@ def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -
     """
     if out is None and type(m) is type(n) is tuple:
         try:
-            answer: Pair | None = _strains_at(m, n, constants)
+            answer: Pair = _strains_at(m, n, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(strains, {"m": m, "n": n}, constants)
+            answer = _one(strains, {"m": m, "n": n}, constants)
+        return answer
     u, v = _apply(_strains, {"m": m, "n": n}, constants, ("u", "v"), out)
     return u, v
 
@@ -692,27 +787,26 @@ def _loads(strains: Rows, c: Constants, work: Array, m: Array, n: Array) -> None
 
 
 def _loads_at(u: Any, v: Any, c: Constants) -> Any:
-    """`loads` of floats; None where it is left to arrays."""
+    """`loads` of floats, where nothing is extreme."""
+    alpha, beta, zeta, eta, chirality, gap, minus_half_p, gamma, per_p = c.of_loads
     u1, u2, u3 = u
     v1, v2, v3 = v
-    if not type(u1) is type(u2) is type(u3) is type(v1) is type(v2) is type(v3) is float:
-        return None
     stretch = v3 - 1
-    kappa_1, kappa_2, kappa_3, lam_1 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.zeta * v1
-    lam_2, lam_3 = c.zeta * v2, c.eta * stretch
-    torque = c.chirality * lam_3 + kappa_3
-    tension = c.chirality * torque + c.gap * lam_3
+    kappa_1, kappa_2, kappa_3, lam_1 = alpha * u1, alpha * u2, beta * u3, zeta * v1
+    lam_2, lam_3 = zeta * v2, eta * stretch
+    torque = chirality * lam_3 + kappa_3
+    tension = chirality * torque + gap * lam_3
     q = (
-        c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
-        + lam_2 * lam_2 + torque * torque
+        gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1 + lam_2 * lam_2
+        + torque * torque
     )
-    if not LOW < q < 1 and any((u1, u2, u3, v1, v2, stretch)):
-        return None
-    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, v1, v2, stretch))):
+        raise _Extreme
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
     growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = log1p(growth)
-    factor = c.gamma * exp(c.per_p * depth)
-    bend, turn, shear, extend = c.alpha * factor, c.beta * factor, c.zeta * factor, c.eta * factor
+    factor = gamma * exp(per_p * depth)
+    bend, turn, shear, extend = alpha * factor, beta * factor, zeta * factor, eta * factor
     return (
         (bend * kappa_1, bend * kappa_2, torque * turn),
         (lam_1 * shear, lam_2 * shear, extend * tension),
@@ -728,10 +822,10 @@ def loads(u: Given, v: Given, constants: Constants, out: Pair | None = None) -> 
     """
     if out is None and type(u) is type(v) is tuple:
         try:
-            answer: Pair | None = _loads_at(u, v, constants)
+            answer: Pair = _loads_at(u, v, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(loads, {"u": u, "v": v}, constants)
+            answer = _one(loads, {"u": u, "v": v}, constants)
+        return answer
     m, n = _apply(_loads, {"u": u, "v": v}, constants, ("m", "n"), out)
     return m, n
 
@@ -748,13 +842,40 @@ def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
     w *= _work_share(depth, c)
 
 
+def _stored_energy_at(u: Any, v: Any, c: Constants) -> Any:
+    """`stored_energy` of floats, where nothing is extreme."""
+    alpha, beta, zeta, eta, chirality, gap, minus_half_p, gamma, per_p, p = c.of_stored_energy
+    u1, u2, u3 = u
+    v1, v2, v3 = v
+    stretch = v3 - 1
+    kappa_1, kappa_2, kappa_3, lam_1 = alpha * u1, alpha * u2, beta * u3, zeta * v1
+    lam_2, lam_3 = zeta * v2, eta * stretch
+    torque = chirality * lam_3 + kappa_3
+    q = (
+        gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1 + lam_2 * lam_2
+        + torque * torque
+    )
+    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, v1, v2, stretch))):
+        raise _Extreme
+    x = sqrt(q)
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
+    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
+    depth = log1p(growth)
+    factor = gamma * exp(per_p * depth)
+    load = factor * x
+    return load * x * _work_share_at(depth, c)
+
+
 def stored_energy(u: Given, v: Given, constants: Constants, out: Array | None = None) -> Array:
     """Stored energy W per length, in force (eq:stenergy), with the trailing shape.
 
     u (3, ...) in 1/length, v (3, ...) plain, with Q < 1 (eq:strainlimiting).
     """
     if out is None and type(u) is type(v) is tuple:
-        answer: Array = _one(stored_energy, {"u": u, "v": v}, constants)
+        try:
+            answer: Array = _stored_energy_at(u, v, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(stored_energy, {"u": u, "v": v}, constants)
         return answer
     (w,) = _apply(_stored_energy, {"u": u, "v": v}, constants, ("w",), out)
     return w
@@ -773,6 +894,33 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
     w_star *= y
 
 
+def _complementary_energy_at(m: Any, n: Any, c: Constants) -> Any:
+    """`complementary_energy` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_zeta, m3_contracts, n3_dilates, gap, gamma, p, minus_per_p,
+    ) = c.of_complementary_energy
+    m1, m2, m3 = m
+    n1, n2, n3 = n
+    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
+    nu_2 = per_zeta * n2
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    q_star = (
+        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    strain = factor * y
+    depth = log1p(power) - p * (0.0 if y <= gamma else log(ratio))
+    return strain * y * (1 - _work_share_at(depth, c))
+
+
 def complementary_energy(
     m: Given, n: Given, constants: Constants, out: Array | None = None
 ) -> Array:
@@ -781,7 +929,10 @@ def complementary_energy(
     m (3, ...) in force times length, n (3, ...) in force, with Q*^(1/2) finite.
     """
     if out is None and type(m) is type(n) is tuple:
-        answer: Array = _one(complementary_energy, {"m": m, "n": n}, constants)
+        try:
+            answer: Array = _complementary_energy_at(m, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(complementary_energy, {"m": m, "n": n}, constants)
         return answer
     (w_star,) = _apply(_complementary_energy, {"m": m, "n": n}, constants, ("w_star",), out)
     return w_star
@@ -888,9 +1039,8 @@ def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
 
 
 def _stiffness_at(u: Any, v: Any, c: Constants) -> Any:
-    """`stiffness` of floats; None where it is left to arrays."""
-    whole = _loads_and_stiffness_at(u, v, c)
-    return whole and whole[-1]
+    """`stiffness` of floats, where nothing is extreme."""
+    return _loads_and_stiffness_at(u, v, c)[-1]
 
 
 def stiffness(u: Given, v: Given, constants: Constants, out: Array | None = None) -> Array:
@@ -901,10 +1051,10 @@ def stiffness(u: Given, v: Given, constants: Constants, out: Array | None = None
     """
     if out is None and type(u) is type(v) is tuple:
         try:
-            answer: Array | None = _stiffness_at(u, v, constants)
+            answer: Array = _stiffness_at(u, v, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(stiffness, {"u": u, "v": v}, constants)
+            answer = _one(stiffness, {"u": u, "v": v}, constants)
+        return answer
     (stiff,) = _apply(_stiffness, {"u": u, "v": v}, constants, ("stiff",), out)
     return stiff
 
@@ -1028,44 +1178,46 @@ def _loads_and_stiffness(
 
 
 def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
-    """`loads_and_stiffness` of floats; None where it is left to arrays."""
+    """`loads_and_stiffness` of floats, where nothing is extreme."""
+    (
+        alpha, beta, zeta, eta, chirality, gap, minus_half_p, gamma, per_p, alpha_squared,
+        beta_squared, iota, zeta_squared, eta_squared,
+    ) = c.of_loads_and_stiffness
     u1, u2, u3 = u
     v1, v2, v3 = v
-    if not type(u1) is type(u2) is type(u3) is type(v1) is type(v2) is type(v3) is float:
-        return None
     stretch = v3 - 1
-    kappa_1, kappa_2, kappa_3, lam_1 = c.alpha * u1, c.alpha * u2, c.beta * u3, c.zeta * v1
-    lam_2, lam_3 = c.zeta * v2, c.eta * stretch
-    torque = c.chirality * lam_3 + kappa_3
-    tension = c.chirality * torque + c.gap * lam_3
+    kappa_1, kappa_2, kappa_3, lam_1 = alpha * u1, alpha * u2, beta * u3, zeta * v1
+    lam_2, lam_3 = zeta * v2, eta * stretch
+    torque = chirality * lam_3 + kappa_3
+    tension = chirality * torque + gap * lam_3
     q = (
-        c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
-        + lam_2 * lam_2 + torque * torque
+        gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1 + lam_2 * lam_2
+        + torque * torque
     )
-    if not LOW < q < 1 and any((u1, u2, u3, v1, v2, stretch)):
-        return None
+    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, v1, v2, stretch))):
+        raise _Extreme
     x = sqrt(q)
-    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
     growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = log1p(growth)
-    factor = c.gamma * exp(c.per_p * depth)
-    steep, bend, turn, shear = factor * growth, c.alpha * factor, c.beta * factor, c.zeta * factor
+    factor = gamma * exp(per_p * depth)
+    steep, bend, turn, shear = factor * growth, alpha * factor, beta * factor, zeta * factor
     per_size = 1 / (x if x > LEAST else LEAST)
-    bend_per_size, turn_per_size = c.alpha * per_size, c.beta * per_size
-    shear_per_size, extend_per_size, extend = c.zeta * per_size, c.eta * per_size, c.eta * factor
+    bend_per_size, turn_per_size = alpha * per_size, beta * per_size
+    shear_per_size, extend_per_size, extend = zeta * per_size, eta * per_size, eta * factor
     t1, t2, t3 = bend_per_size * kappa_1, bend_per_size * kappa_2, torque * turn_per_size
     t4, t5, t6 = lam_1 * shear_per_size, lam_2 * shear_per_size, extend_per_size * tension
     steep_1, steep_2, steep_3, steep_4 = steep * t1, steep * t2, steep * t3, steep * t4
     steep_5, steep_6 = steep * t5, steep * t6
-    k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
+    k11, k12, k13 = alpha_squared * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
     k14, k15, k16 = steep_1 * t4, steep_1 * t5, steep_1 * t6
-    k22, k23, k24 = c.alpha * c.alpha * factor + steep_2 * t2, steep_2 * t3, steep_2 * t4
+    k22, k23, k24 = alpha_squared * factor + steep_2 * t2, steep_2 * t3, steep_2 * t4
     k25, k26 = steep_2 * t5, steep_2 * t6
-    k33, k34, k35 = c.beta * c.beta * factor + steep_3 * t3, steep_3 * t4, steep_3 * t5
-    k36 = c.iota * factor + steep_3 * t6
-    k44, k45, k46 = c.zeta * c.zeta * factor + steep_4 * t4, steep_4 * t5, steep_4 * t6
-    k55, k56 = c.zeta * c.zeta * factor + steep_5 * t5, steep_5 * t6
-    k66 = c.eta * c.eta * factor + steep_6 * t6
+    k33, k34, k35 = beta_squared * factor + steep_3 * t3, steep_3 * t4, steep_3 * t5
+    k36 = iota * factor + steep_3 * t6
+    k44, k45, k46 = zeta_squared * factor + steep_4 * t4, steep_4 * t5, steep_4 * t6
+    k55, k56 = zeta_squared * factor + steep_5 * t5, steep_5 * t6
+    k66 = eta_squared * factor + steep_6 * t6
     stiff = (
         (k11, k12, k13, k14, k15, k16),
         (k12, k22, k23, k24, k25, k26),
@@ -1093,10 +1245,10 @@ def loads_and_stiffness(
     """
     if out is None and type(u) is type(v) is tuple:
         try:
-            answer: Triple | None = _loads_and_stiffness_at(u, v, constants)
+            answer: Triple = _loads_and_stiffness_at(u, v, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(loads_and_stiffness, {"u": u, "v": v}, constants)
+            answer = _one(loads_and_stiffness, {"u": u, "v": v}, constants)
+        return answer
     m, n, stiff = _apply(
         _loads_and_stiffness, {"u": u, "v": v}, constants, ("m", "n", "stiff"), out
     )
@@ -1203,6 +1355,66 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
         soft[i, :i] = soft[:i, i]
 
 
+def _compliance_at(m: Any, n: Any, c: Constants) -> Any:
+    """`compliance` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_zeta, per_eta, m3_contracts, n3_dilates, chirality, gap, gamma, p,
+        minus_per_p, per_alpha_squared, per_beta_squared, per_gap, per_beta_per_eta,
+        per_zeta_squared, per_eta_squared,
+    ) = c.of_compliance
+    m1, m2, m3 = m
+    n1, n2, n3 = n
+    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
+    nu_2, nu_3 = per_zeta * n2, per_eta * n3
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
+    q_star = (
+        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    per_size = 1 / (y if y > LEAST else LEAST)
+    a1, share = per_size * (mu_1 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
+    aa1 = a1 * a1
+    a2, a3, b1, b2 = mu_2 * per_size, mu_3 * per_size, nu_1 * per_size, nu_2 * per_size
+    aa2, aa3, bb1, bb2 = a2 * a2, a3 * a3, b1 * b1, b2 * b2
+    b3, c3, c6, d1 = nu_3 * per_size, per_size * twist, dilatation * per_size, per_alpha * a1
+    cc6 = c6 * c6
+    across = aa1 + aa2 + bb1 + bb2
+    coupled = aa3 + gap * cc6
+    steep = -factor * share
+    d2, d3, d4, d5, d6 = per_alpha * a2, per_beta * c3, per_zeta * b1, per_zeta * b2, per_eta * c6
+    steep_1, steep_2, steep_3, steep_4 = d1 * steep, d2 * steep, d3 * steep, d4 * steep
+    steep_5 = d5 * steep
+    s11, s12 = per_alpha_squared * factor * (aa1 * remain + aa2 + bb1 + bb2 + coupled), d2 * steep_1
+    s13, s14, s15, s16 = d3 * steep_1, d4 * steep_1, d5 * steep_1, d6 * steep_1
+    s22, s23 = per_alpha_squared * factor * (aa1 + aa2 * remain + bb1 + bb2 + coupled), d3 * steep_2
+    s24, s25, s26 = d4 * steep_2, d5 * steep_2, d6 * steep_2
+    s33 = per_beta_squared * factor * (c3 * c3 * remain + per_gap * (across + b3 * b3))
+    s34, s35 = d4 * steep_3, d5 * steep_3
+    s36 = per_beta_per_eta * factor * (c3 * c6 * remain - per_gap * (a3 * b3 + chirality * across))
+    s44, s45 = per_zeta_squared * factor * (aa1 + aa2 + bb1 * remain + bb2 + coupled), d5 * steep_4
+    s46 = d6 * steep_4
+    s55, s56 = per_zeta_squared * factor * (aa1 + aa2 + bb1 + bb2 * remain + coupled), d6 * steep_5
+    s66 = per_eta_squared * factor * (cc6 * remain + per_gap * (aa3 + across))
+    return (
+        (s11, s12, s13, s14, s15, s16),
+        (s12, s22, s23, s24, s25, s26),
+        (s13, s23, s33, s34, s35, s36),
+        (s14, s24, s34, s44, s45, s46),
+        (s15, s25, s35, s45, s55, s56),
+        (s16, s26, s36, s46, s56, s66),
+    )
+
+
 def compliance(m: Given, n: Given, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d(u, v)/d(m, n), (6, 6, ...), the inverse of the stiffness at these loads.
 
@@ -1210,7 +1422,10 @@ def compliance(m: Given, n: Given, constants: Constants, out: Array | None = Non
     Rows and columns are ordered (u1, u2, u3, v1, v2, v3) and (m1, m2, m3, n1, n2, n3).
     """
     if out is None and type(m) is type(n) is tuple:
-        answer: Array = _one(compliance, {"m": m, "n": n}, constants)
+        try:
+            answer: Array = _compliance_at(m, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(compliance, {"m": m, "n": n}, constants)
         return answer
     (soft,) = _apply(_compliance, {"m": m, "n": n}, constants, ("soft",), out)
     return soft
@@ -1291,6 +1506,40 @@ def _strains_and_gap(
     limit_gap[...] = remain
 
 
+def _strains_and_gap_at(m: Any, n: Any, c: Constants) -> Any:
+    """`strains_and_gap` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_zeta, m3_contracts, n3_dilates, chirality, gap, gamma, p,
+        minus_per_p, per_eta,
+    ) = c.of_strains_and_gap
+    m1, m2, m3 = m
+    n1, n2, n3 = n
+    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
+    nu_2 = per_zeta * n2
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    twist = mu_3 - chirality * dilatation
+    q_star = (
+        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, turn, shear = per_alpha * factor, per_beta * factor, per_zeta * factor
+    extend = per_eta * factor
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    return (
+        (bend * mu_1, bend * mu_2, turn * twist),
+        (nu_1 * shear, nu_2 * shear, dilatation * extend + 1),
+        remain,
+    )
+
+
 def strains_and_gap(m: Given, n: Given, constants: Constants, out: Triple | None = None) -> Triple:
     """Strains u, v under the loads m, n, and 1 - Q^(p/2).
 
@@ -1299,7 +1548,10 @@ def strains_and_gap(m: Given, n: Given, constants: Constants, out: Triple | None
     near the limit it says what the strains no longer can.
     """
     if out is None and type(m) is type(n) is tuple:
-        answer: Triple = _one(strains_and_gap, {"m": m, "n": n}, constants)
+        try:
+            answer: Triple = _strains_and_gap_at(m, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(strains_and_gap, {"m": m, "n": n}, constants)
         return answer
     u, v, limit_gap = _apply(
         _strains_and_gap, {"m": m, "n": n}, constants, ("u", "v", "limit_gap"), out
@@ -1400,6 +1652,56 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
         stiff[i, :i] = stiff[:i, i]
 
 
+def _stiffness_at_loads_at(m: Any, n: Any, c: Constants) -> Any:
+    """`stiffness_at_loads` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, per_zeta, per_eta, m3_contracts, n3_dilates, gap, half_p, per_gamma,
+        gamma, per_p, alpha, beta, zeta, eta, alpha_squared, beta_squared, iota, zeta_squared,
+        eta_squared,
+    ) = c.of_stiffness_at_loads
+    m1, m2, m3 = m
+    n1, n2, n3 = n
+    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
+    nu_2, nu_3 = per_zeta * n2, per_eta * n3
+    dilatation = n3_dilates * n3 - m3_contracts * m3
+    q_star = (
+        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
+        + nu_2 * nu_2
+    )
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    raw_1 = per_gamma * y
+    rise = (raw_1 if raw_1 > LEAST else LEAST)**half_p
+    raw_2 = 1 / (rise if rise > LEAST else LEAST)
+    half = raw_2 if raw_2 < rise else rise
+    power = half * half
+    factor = exp(per_p * log1p(power)) * (y if y > gamma else gamma)
+    rise_per_size = rise / (y if y > LEAST else LEAST)
+    bend_rise, turn_rise = alpha * rise_per_size, beta * rise_per_size
+    shear_rise, extend_rise, h1 = zeta * rise_per_size, eta * rise_per_size, bend_rise * mu_1
+    h2, h3, h4, h5 = bend_rise * mu_2, mu_3 * turn_rise, nu_1 * shear_rise, nu_2 * shear_rise
+    h6, factor_1, factor_2, factor_3 = extend_rise * nu_3, factor * h1, factor * h2, factor * h3
+    factor_4, factor_5, factor_6 = factor * h4, factor * h5, factor * h6
+    k11, k12, k13 = alpha_squared * factor + factor_1 * h1, factor_1 * h2, factor_1 * h3
+    k14, k15, k16 = factor_1 * h4, factor_1 * h5, factor_1 * h6
+    k22, k23, k24 = alpha_squared * factor + factor_2 * h2, factor_2 * h3, factor_2 * h4
+    k25, k26 = factor_2 * h5, factor_2 * h6
+    k33, k34, k35 = beta_squared * factor + factor_3 * h3, factor_3 * h4, factor_3 * h5
+    k36 = iota * factor + factor_3 * h6
+    k44, k45, k46 = zeta_squared * factor + factor_4 * h4, factor_4 * h5, factor_4 * h6
+    k55, k56 = zeta_squared * factor + factor_5 * h5, factor_5 * h6
+    k66 = eta_squared * factor + factor_6 * h6
+    return (
+        (k11, k12, k13, k14, k15, k16),
+        (k12, k22, k23, k24, k25, k26),
+        (k13, k23, k33, k34, k35, k36),
+        (k14, k24, k34, k44, k45, k46),
+        (k15, k25, k35, k45, k55, k56),
+        (k16, k26, k36, k46, k56, k66),
+    )
+
+
 def stiffness_at_loads(m: Given, n: Given, constants: Constants, out: Array | None = None) -> Array:
     """Stiffness d(m, n)/d(u, v), (6, 6, ...), at the strains of these loads.
 
@@ -1408,7 +1710,10 @@ def stiffness_at_loads(m: Given, n: Given, constants: Constants, out: Array | No
     The inverse of the compliance; it holds where strains no longer tell the loads.
     """
     if out is None and type(m) is type(n) is tuple:
-        answer: Array = _one(stiffness_at_loads, {"m": m, "n": n}, constants)
+        try:
+            answer: Array = _stiffness_at_loads_at(m, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(stiffness_at_loads, {"m": m, "n": n}, constants)
         return answer
     (stiff,) = _apply(_stiffness_at_loads, {"m": m, "n": n}, constants, ("stiff",), out)
     return stiff

@@ -14,8 +14,8 @@ hess-m-u reading; hess-m-u3 reading; hess-m3-u3 refuted; wstar-gradient Section 
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
 One point: tuples of numbers (a float for a single component) are answered with tuples of floats,
-in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
-loads and stiffness near the limit, as far as the strains determine them.
+in plain Python, where nothing is extreme. They agree with the arrays' answers within 8 ulps of
+the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                16    4    0    4
@@ -122,6 +122,65 @@ class Constants:
             term *= (k + 1 - 2 * a) / (k + 1) / 9
         start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
         return fraction, powers, start, slope, single
+
+    @cached_property
+    def of_strains(self) -> tuple[float, ...]:
+        """What `strains` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.gamma, self.p, -self.per_p,
+        )
+
+    @cached_property
+    def of_loads(self) -> tuple[float, ...]:
+        """What `loads` of one point takes."""
+        return (
+            self.alpha, self.beta, -0.5 * self.p, self.gamma, self.per_p,
+        )
+
+    @cached_property
+    def of_stored_energy(self) -> tuple[float, ...]:
+        """What `stored_energy` of one point takes."""
+        return (
+            self.alpha, self.beta, -0.5 * self.p, self.gamma, self.per_p, self.p,
+        )
+
+    @cached_property
+    def of_complementary_energy(self) -> tuple[float, ...]:
+        """What `complementary_energy` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.gamma, self.p, -self.per_p,
+        )
+
+    @cached_property
+    def of_loads_and_stiffness(self) -> tuple[float, ...]:
+        """What `loads_and_stiffness` of one point takes."""
+        return (
+            self.alpha, self.beta, -0.5 * self.p, self.gamma, self.per_p, self.alpha**2,
+            self.beta**2,
+        )
+
+    @cached_property
+    def of_compliance(self) -> tuple[float, ...]:
+        """What `compliance` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.gamma, self.p, -self.per_p, self.per_alpha**2,
+            self.per_beta**2,
+        )
+
+    @cached_property
+    def of_strains_and_gap(self) -> tuple[float, ...]:
+        """What `strains_and_gap` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, self.gamma, self.p, -self.per_p,
+        )
+
+    @cached_property
+    def of_stiffness_at_loads(self) -> tuple[float, ...]:
+        """What `stiffness_at_loads` of one point takes."""
+        return (
+            self.per_alpha, self.per_beta, 0.5 * self.p, self.per_gamma, self.gamma, self.per_p,
+            self.alpha, self.beta, self.alpha**2, self.beta**2,
+        )
 
 
 class Plain:
@@ -318,6 +377,23 @@ def _work_share(depth: Array, c: Constants) -> Array:
     return share
 
 
+def _work_share_at(depth: float, c: Constants) -> float:
+    """`_work_share` of one point."""
+    fraction, powers, start, slope, single = c.work_share
+    beyond = depth - log(9)
+    if beyond <= 0:
+        growth, value = expm1(depth), 1.0
+        for term in reversed(fraction):
+            value = growth / value * term + 1
+        return 0.5 / value
+    left, rest = exp(-beyond), 0.0
+    for coefficient in reversed(powers):
+        rest = rest * left + coefficient
+    turns = -expm1(min(-slope * beyond, 80)) / slope if slope else beyond
+    inner = exp(-beyond / c.p) * (start + single * turns) - left * rest
+    return inner * exp(-2 / c.p * log1p(-left / 9))
+
+
 class _PastLimit(Exception):
     """Some strains have Q >= 1."""
 
@@ -424,9 +500,16 @@ def _apply(
     return results
 
 
+class _Extreme(ArithmeticError):
+    """A point that plain Python leaves to arrays."""
+
+
 def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
     """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
-    arrays, shape = _arguments(inputs)
+    try:
+        arrays, shape = _arguments(inputs)
+    except ValueError as wrong:
+        raise wrong from None
     if shape:  # tuples of arrays
         return law(*map(np.asarray, inputs.values()), c)
     floats = [a.astype(float).tolist() for a in arrays]
@@ -493,21 +576,20 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array) -> None:
 
 
 def _strains_at(m: Any, c: Constants) -> Any:
-    """`strains` of floats; None where it is left to arrays."""
+    """`strains` of floats, where nothing is extreme."""
+    per_alpha, per_beta, gamma, p, minus_per_p = c.of_strains
     m1, m2, m3 = m
-    if not type(m1) is type(m2) is type(m3) is float:
-        return None
-    mu_1, mu_2, mu_3 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
     q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if not LOW < q_star < HIGH and any((m1, m2, m3)):
-        return None
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+        raise _Extreme
     y = sqrt(q_star)
-    larger = y if y > c.gamma else c.gamma
-    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**c.p
-    factor = exp(-c.per_p * log1p(power)) / larger
-    bend, turn = c.per_alpha * factor, c.per_beta * factor
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, turn = per_alpha * factor, per_beta * factor
     return (bend * mu_1, bend * mu_2, mu_3 * turn)
 
 
@@ -519,10 +601,10 @@ def strains(m: Given, constants: Constants, out: Array | None = None) -> Array:
     """
     if out is None and type(m) is tuple:
         try:
-            answer: Array | None = _strains_at(m, constants)
+            answer: Array = _strains_at(m, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(strains, {"m": m}, constants)
+            answer = _one(strains, {"m": m}, constants)
+        return answer
     (u,) = _apply(_strains, {"m": m}, constants, ("u",), out)
     return u
 
@@ -576,19 +658,18 @@ def _loads(strains: Rows, c: Constants, work: Array, m: Array) -> None:
 
 
 def _loads_at(u: Any, c: Constants) -> Any:
-    """`loads` of floats; None where it is left to arrays."""
+    """`loads` of floats, where nothing is extreme."""
+    alpha, beta, minus_half_p, gamma, per_p = c.of_loads
     u1, u2, u3 = u
-    if not type(u1) is type(u2) is type(u3) is float:
-        return None
-    kappa_1, kappa_2, kappa_3 = c.alpha * u1, c.alpha * u2, c.beta * u3
+    kappa_1, kappa_2, kappa_3 = alpha * u1, alpha * u2, beta * u3
     q = kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3
-    if not LOW < q < 1 and any((u1, u2, u3)):
-        return None
-    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3))):
+        raise _Extreme
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
     growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = log1p(growth)
-    factor = c.gamma * exp(c.per_p * depth)
-    bend, turn = c.alpha * factor, c.beta * factor
+    factor = gamma * exp(per_p * depth)
+    bend, turn = alpha * factor, beta * factor
     return (bend * kappa_1, bend * kappa_2, kappa_3 * turn)
 
 
@@ -601,10 +682,10 @@ def loads(u: Given, constants: Constants, out: Array | None = None) -> Array:
     """
     if out is None and type(u) is tuple:
         try:
-            answer: Array | None = _loads_at(u, constants)
+            answer: Array = _loads_at(u, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(loads, {"u": u}, constants)
+            answer = _one(loads, {"u": u}, constants)
+        return answer
     (m,) = _apply(_loads, {"u": u}, constants, ("m",), out)
     return m
 
@@ -620,13 +701,33 @@ def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
     w *= _work_share(depth, c)
 
 
+def _stored_energy_at(u: Any, c: Constants) -> Any:
+    """`stored_energy` of floats, where nothing is extreme."""
+    alpha, beta, minus_half_p, gamma, per_p, p = c.of_stored_energy
+    u1, u2, u3 = u
+    kappa_1, kappa_2, kappa_3 = alpha * u1, alpha * u2, beta * u3
+    q = kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3
+    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3))):
+        raise _Extreme
+    x = sqrt(q)
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
+    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
+    depth = log1p(growth)
+    factor = gamma * exp(per_p * depth)
+    load = factor * x
+    return load * x * _work_share_at(depth, c)
+
+
 def stored_energy(u: Given, constants: Constants, out: Array | None = None) -> Array:
     """Stored energy W per length, in force (eq:stenergy), with the trailing shape.
 
     u (3, ...) in 1/length, with Q < 1 (eq:strainlimiting).
     """
     if out is None and type(u) is tuple:
-        answer: Array = _one(stored_energy, {"u": u}, constants)
+        try:
+            answer: Array = _stored_energy_at(u, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(stored_energy, {"u": u}, constants)
         return answer
     (w,) = _apply(_stored_energy, {"u": u}, constants, ("w",), out)
     return w
@@ -645,13 +746,35 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
     w_star *= y
 
 
+def _complementary_energy_at(m: Any, c: Constants) -> Any:
+    """`complementary_energy` of floats, where nothing is extreme."""
+    per_alpha, per_beta, gamma, p, minus_per_p = c.of_complementary_energy
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    strain = factor * y
+    depth = log1p(power) - p * (0.0 if y <= gamma else log(ratio))
+    return strain * y * (1 - _work_share_at(depth, c))
+
+
 def complementary_energy(m: Given, constants: Constants, out: Array | None = None) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
     m (3, ...) in force times length, with Q*^(1/2) finite.
     """
     if out is None and type(m) is tuple:
-        answer: Array = _one(complementary_energy, {"m": m}, constants)
+        try:
+            answer: Array = _complementary_energy_at(m, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(complementary_energy, {"m": m}, constants)
         return answer
     (w_star,) = _apply(_complementary_energy, {"m": m}, constants, ("w_star",), out)
     return w_star
@@ -730,9 +853,8 @@ def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
 
 
 def _stiffness_at(u: Any, c: Constants) -> Any:
-    """`stiffness` of floats; None where it is left to arrays."""
-    whole = _loads_and_stiffness_at(u, c)
-    return whole and whole[-1]
+    """`stiffness` of floats, where nothing is extreme."""
+    return _loads_and_stiffness_at(u, c)[-1]
 
 
 def stiffness(u: Given, constants: Constants, out: Array | None = None) -> Array:
@@ -743,10 +865,10 @@ def stiffness(u: Given, constants: Constants, out: Array | None = None) -> Array
     """
     if out is None and type(u) is tuple:
         try:
-            answer: Array | None = _stiffness_at(u, constants)
+            answer: Array = _stiffness_at(u, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(stiffness, {"u": u}, constants)
+            answer = _one(stiffness, {"u": u}, constants)
+        return answer
     (stiff,) = _apply(_stiffness, {"u": u}, constants, ("stiff",), out)
     return stiff
 
@@ -832,27 +954,26 @@ def _loads_and_stiffness(strains: Rows, c: Constants, work: Array, m: Array, sti
 
 
 def _loads_and_stiffness_at(u: Any, c: Constants) -> Any:
-    """`loads_and_stiffness` of floats; None where it is left to arrays."""
+    """`loads_and_stiffness` of floats, where nothing is extreme."""
+    alpha, beta, minus_half_p, gamma, per_p, alpha_squared, beta_squared = c.of_loads_and_stiffness
     u1, u2, u3 = u
-    if not type(u1) is type(u2) is type(u3) is float:
-        return None
-    kappa_1, kappa_2, kappa_3 = c.alpha * u1, c.alpha * u2, c.beta * u3
+    kappa_1, kappa_2, kappa_3 = alpha * u1, alpha * u2, beta * u3
     q = kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3
-    if not LOW < q < 1 and any((u1, u2, u3)):
-        return None
+    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3))):
+        raise _Extreme
     x = sqrt(q)
-    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
     growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = log1p(growth)
-    factor = c.gamma * exp(c.per_p * depth)
-    steep, bend, turn = factor * growth, c.alpha * factor, c.beta * factor
+    factor = gamma * exp(per_p * depth)
+    steep, bend, turn = factor * growth, alpha * factor, beta * factor
     per_size = 1 / (x if x > LEAST else LEAST)
-    bend_per_size, turn_per_size = c.alpha * per_size, c.beta * per_size
+    bend_per_size, turn_per_size = alpha * per_size, beta * per_size
     t1, t2, t3 = bend_per_size * kappa_1, bend_per_size * kappa_2, kappa_3 * turn_per_size
     steep_1, steep_2, steep_3 = steep * t1, steep * t2, steep * t3
-    k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
-    k22, k23 = c.alpha * c.alpha * factor + steep_2 * t2, steep_2 * t3
-    k33 = c.beta * c.beta * factor + steep_3 * t3
+    k11, k12, k13 = alpha_squared * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
+    k22, k23 = alpha_squared * factor + steep_2 * t2, steep_2 * t3
+    k33 = beta_squared * factor + steep_3 * t3
     stiff = (
         (k11, k12, k13),
         (k12, k22, k23),
@@ -871,10 +992,10 @@ def loads_and_stiffness(u: Given, constants: Constants, out: Pair | None = None)
     """
     if out is None and type(u) is tuple:
         try:
-            answer: Pair | None = _loads_and_stiffness_at(u, constants)
+            answer: Pair = _loads_and_stiffness_at(u, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(loads_and_stiffness, {"u": u}, constants)
+            answer = _one(loads_and_stiffness, {"u": u}, constants)
+        return answer
     m, stiff = _apply(_loads_and_stiffness, {"u": u}, constants, ("m", "stiff"), out)
     return m, stiff
 
@@ -930,6 +1051,43 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
         soft[i, :i] = soft[:i, i]
 
 
+def _compliance_at(m: Any, c: Constants) -> Any:
+    """`compliance` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, gamma, p, minus_per_p, per_alpha_squared, per_beta_squared,
+    ) = c.of_compliance
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    per_size = 1 / (y if y > LEAST else LEAST)
+    a1, share = per_size * (mu_1 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
+    aa1 = a1 * a1
+    a2, a3, d1 = mu_2 * per_size, mu_3 * per_size, per_alpha * a1
+    aa2, aa3 = a2 * a2, a3 * a3
+    across = aa1 + aa2
+    steep = -factor * share
+    d2, d3, steep_1 = per_alpha * a2, per_beta * a3, d1 * steep
+    steep_2 = d2 * steep
+    s11, s12 = per_alpha_squared * factor * (aa1 * remain + aa2 + aa3), d2 * steep_1
+    s13 = d3 * steep_1
+    s22, s23 = per_alpha_squared * factor * (aa1 + aa2 * remain + aa3), d3 * steep_2
+    s33 = per_beta_squared * factor * (aa3 * remain + across)
+    return (
+        (s11, s12, s13),
+        (s12, s22, s23),
+        (s13, s23, s33),
+    )
+
+
 def compliance(m: Given, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d u/d m, (3, 3, ...), the inverse of the stiffness at these loads.
 
@@ -937,7 +1095,10 @@ def compliance(m: Given, constants: Constants, out: Array | None = None) -> Arra
     Rows and columns are ordered (u1, u2, u3) and (m1, m2, m3).
     """
     if out is None and type(m) is tuple:
-        answer: Array = _one(compliance, {"m": m}, constants)
+        try:
+            answer: Array = _compliance_at(m, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(compliance, {"m": m}, constants)
         return answer
     (soft,) = _apply(_compliance, {"m": m}, constants, ("soft",), out)
     return soft
@@ -995,6 +1156,25 @@ def _strains_and_gap(loads: Rows, c: Constants, work: Array, u: Array, limit_gap
     limit_gap[...] = remain
 
 
+def _strains_and_gap_at(m: Any, c: Constants) -> Any:
+    """`strains_and_gap` of floats, where nothing is extreme."""
+    per_alpha, per_beta, gamma, p, minus_per_p = c.of_strains_and_gap
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, turn = per_alpha * factor, per_beta * factor
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    return (bend * mu_1, bend * mu_2, mu_3 * turn), remain
+
+
 def strains_and_gap(m: Given, constants: Constants, out: Pair | None = None) -> Pair:
     """Strains u under the loads m, and 1 - Q^(p/2).
 
@@ -1003,7 +1183,10 @@ def strains_and_gap(m: Given, constants: Constants, out: Pair | None = None) -> 
     near the limit it says what the strains no longer can.
     """
     if out is None and type(m) is tuple:
-        answer: Pair = _one(strains_and_gap, {"m": m}, constants)
+        try:
+            answer: Pair = _strains_and_gap_at(m, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(strains_and_gap, {"m": m}, constants)
         return answer
     u, limit_gap = _apply(_strains_and_gap, {"m": m}, constants, ("u", "limit_gap"), out)
     return u, limit_gap
@@ -1075,6 +1258,38 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
         stiff[i, :i] = stiff[:i, i]
 
 
+def _stiffness_at_loads_at(m: Any, c: Constants) -> Any:
+    """`stiffness_at_loads` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_beta, half_p, per_gamma, gamma, per_p, alpha, beta, alpha_squared,
+        beta_squared,
+    ) = c.of_stiffness_at_loads
+    m1, m2, m3 = m
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    raw_1 = per_gamma * y
+    rise = (raw_1 if raw_1 > LEAST else LEAST)**half_p
+    raw_2 = 1 / (rise if rise > LEAST else LEAST)
+    half = raw_2 if raw_2 < rise else rise
+    power = half * half
+    factor = exp(per_p * log1p(power)) * (y if y > gamma else gamma)
+    rise_per_size = rise / (y if y > LEAST else LEAST)
+    bend_rise, turn_rise = alpha * rise_per_size, beta * rise_per_size
+    h1, h2, h3 = bend_rise * mu_1, bend_rise * mu_2, mu_3 * turn_rise
+    factor_1, factor_2, factor_3 = factor * h1, factor * h2, factor * h3
+    k11, k12, k13 = alpha_squared * factor + factor_1 * h1, factor_1 * h2, factor_1 * h3
+    k22, k23 = alpha_squared * factor + factor_2 * h2, factor_2 * h3
+    k33 = beta_squared * factor + factor_3 * h3
+    return (
+        (k11, k12, k13),
+        (k12, k22, k23),
+        (k13, k23, k33),
+    )
+
+
 def stiffness_at_loads(m: Given, constants: Constants, out: Array | None = None) -> Array:
     """Stiffness d m/d u, (3, 3, ...), at the strains of these loads.
 
@@ -1083,7 +1298,10 @@ def stiffness_at_loads(m: Given, constants: Constants, out: Array | None = None)
     The inverse of the compliance; it holds where strains no longer tell the loads.
     """
     if out is None and type(m) is tuple:
-        answer: Array = _one(stiffness_at_loads, {"m": m}, constants)
+        try:
+            answer: Array = _stiffness_at_loads_at(m, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(stiffness_at_loads, {"m": m}, constants)
         return answer
     (stiff,) = _apply(_stiffness_at_loads, {"m": m}, constants, ("stiff",), out)
     return stiff

@@ -14,8 +14,8 @@ hess-n-v reading; hess-n-v3 reading; hess-n3-v3 reading; wstar-gradient Section 
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
 One point: tuples of numbers (a float for a single component) are answered with tuples of floats,
-in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
-loads and stiffness near the limit, as far as the strains determine them.
+in plain Python, where nothing is extreme. They agree with the arrays' answers within 8 ulps of
+the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                19    4    0    6
@@ -128,6 +128,65 @@ class Constants:
             term *= (k + 1 - 2 * a) / (k + 1) / 9
         start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
         return fraction, powers, start, slope, single
+
+    @cached_property
+    def of_strains(self) -> tuple[float, ...]:
+        """What `strains` of one point takes."""
+        return (
+            self.per_alpha, self.per_zeta, self.per_eta, self.gamma, self.p, -self.per_p,
+        )
+
+    @cached_property
+    def of_loads(self) -> tuple[float, ...]:
+        """What `loads` of one point takes."""
+        return (
+            self.alpha, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p,
+        )
+
+    @cached_property
+    def of_stored_energy(self) -> tuple[float, ...]:
+        """What `stored_energy` of one point takes."""
+        return (
+            self.alpha, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p, self.p,
+        )
+
+    @cached_property
+    def of_complementary_energy(self) -> tuple[float, ...]:
+        """What `complementary_energy` of one point takes."""
+        return (
+            self.per_alpha, self.per_zeta, self.per_eta, self.gamma, self.p, -self.per_p,
+        )
+
+    @cached_property
+    def of_loads_and_stiffness(self) -> tuple[float, ...]:
+        """What `loads_and_stiffness` of one point takes."""
+        return (
+            self.alpha, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p, self.alpha**2,
+            self.zeta**2, self.eta**2,
+        )
+
+    @cached_property
+    def of_compliance(self) -> tuple[float, ...]:
+        """What `compliance` of one point takes."""
+        return (
+            self.per_alpha, self.per_zeta, self.per_eta, self.gamma, self.p, -self.per_p,
+            self.per_alpha**2, self.per_zeta**2, self.per_eta**2,
+        )
+
+    @cached_property
+    def of_strains_and_gap(self) -> tuple[float, ...]:
+        """What `strains_and_gap` of one point takes."""
+        return (
+            self.per_alpha, self.per_zeta, self.per_eta, self.gamma, self.p, -self.per_p,
+        )
+
+    @cached_property
+    def of_stiffness_at_loads(self) -> tuple[float, ...]:
+        """What `stiffness_at_loads` of one point takes."""
+        return (
+            self.per_alpha, self.per_zeta, self.per_eta, 0.5 * self.p, self.per_gamma, self.gamma,
+            self.per_p, self.alpha, self.zeta, self.eta, self.alpha**2, self.zeta**2, self.eta**2,
+        )
 
 
 class Plain:
@@ -327,6 +386,23 @@ def _work_share(depth: Array, c: Constants) -> Array:
     return share
 
 
+def _work_share_at(depth: float, c: Constants) -> float:
+    """`_work_share` of one point."""
+    fraction, powers, start, slope, single = c.work_share
+    beyond = depth - log(9)
+    if beyond <= 0:
+        growth, value = expm1(depth), 1.0
+        for term in reversed(fraction):
+            value = growth / value * term + 1
+        return 0.5 / value
+    left, rest = exp(-beyond), 0.0
+    for coefficient in reversed(powers):
+        rest = rest * left + coefficient
+    turns = -expm1(min(-slope * beyond, 80)) / slope if slope else beyond
+    inner = exp(-beyond / c.p) * (start + single * turns) - left * rest
+    return inner * exp(-2 / c.p * log1p(-left / 9))
+
+
 class _PastLimit(Exception):
     """Some strains have Q >= 1."""
 
@@ -434,9 +510,16 @@ def _apply(
     return results
 
 
+class _Extreme(ArithmeticError):
+    """A point that plain Python leaves to arrays."""
+
+
 def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
     """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
-    arrays, shape = _arguments(inputs)
+    try:
+        arrays, shape = _arguments(inputs)
+    except ValueError as wrong:
+        raise wrong from None
     if shape:  # tuples of arrays
         return law(*map(np.asarray, inputs.values()), c)
     floats = [a.astype(float).tolist() for a in arrays]
@@ -509,21 +592,20 @@ def _strains(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> Non
 
 
 def _strains_at(m2: Any, n: Any, c: Constants) -> Any:
-    """`strains` of floats; None where it is left to arrays."""
+    """`strains` of floats, where nothing is extreme."""
+    per_alpha, per_zeta, per_eta, gamma, p, minus_per_p = c.of_strains
     n1, n3 = n
-    if not type(m2) is type(n1) is type(n3) is float:
-        return None
-    mu_2, nu_1, nu_3 = c.per_alpha * m2, c.per_zeta * n1, c.per_eta * n3
+    mu_2, nu_1, nu_3 = per_alpha * m2, per_zeta * n1, per_eta * n3
     q_star = mu_2 * mu_2 + nu_1 * nu_1 + nu_3 * nu_3
-    if not LOW < q_star < HIGH and any((m2, n1, n3)):
-        return None
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m2, n1, n3))):
+        raise _Extreme
     y = sqrt(q_star)
-    larger = y if y > c.gamma else c.gamma
-    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**c.p
-    factor = exp(-c.per_p * log1p(power)) / larger
-    bend, shear, extend = c.per_alpha * factor, c.per_zeta * factor, c.per_eta * factor
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, shear, extend = per_alpha * factor, per_zeta * factor, per_eta * factor
     return bend * mu_2, (nu_1 * shear, extend * nu_3 + 1)
 
 
@@ -535,10 +617,10 @@ def strains(m2: Given | float, n: Given, constants: Constants, out: Pair | None 
     """
     if out is None and type(n) is tuple and type(m2) is float:
         try:
-            answer: Pair | None = _strains_at(m2, n, constants)
+            answer: Pair = _strains_at(m2, n, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(strains, {"m2": m2, "n": n}, constants)
+            answer = _one(strains, {"m2": m2, "n": n}, constants)
+        return answer
     u2, v = _apply(_strains, {"m2": m2, "n": n}, constants, ("u2", "v"), out)
     return u2, v
 
@@ -596,20 +678,19 @@ def _loads(strains: Rows, c: Constants, work: Array, m2: Array, n: Array) -> Non
 
 
 def _loads_at(u2: Any, v: Any, c: Constants) -> Any:
-    """`loads` of floats; None where it is left to arrays."""
+    """`loads` of floats, where nothing is extreme."""
+    alpha, zeta, eta, minus_half_p, gamma, per_p = c.of_loads
     v1, v3 = v
-    if not type(u2) is type(v1) is type(v3) is float:
-        return None
     stretch = v3 - 1
-    kappa_2, lam_1, lam_3 = c.alpha * u2, c.zeta * v1, c.eta * stretch
+    kappa_2, lam_1, lam_3 = alpha * u2, zeta * v1, eta * stretch
     q = kappa_2 * kappa_2 + lam_1 * lam_1 + lam_3 * lam_3
-    if not LOW < q < 1 and any((u2, v1, stretch)):
-        return None
-    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    if type(q) is not float or (not LOW < q < 1 and any((u2, v1, stretch))):
+        raise _Extreme
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
     growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = log1p(growth)
-    factor = c.gamma * exp(c.per_p * depth)
-    bend, shear, extend = c.alpha * factor, c.zeta * factor, c.eta * factor
+    factor = gamma * exp(per_p * depth)
+    bend, shear, extend = alpha * factor, zeta * factor, eta * factor
     return bend * kappa_2, (lam_1 * shear, extend * lam_3)
 
 
@@ -622,10 +703,10 @@ def loads(u2: Given | float, v: Given, constants: Constants, out: Pair | None = 
     """
     if out is None and type(v) is tuple and type(u2) is float:
         try:
-            answer: Pair | None = _loads_at(u2, v, constants)
+            answer: Pair = _loads_at(u2, v, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(loads, {"u2": u2, "v": v}, constants)
+            answer = _one(loads, {"u2": u2, "v": v}, constants)
+        return answer
     m2, n = _apply(_loads, {"u2": u2, "v": v}, constants, ("m2", "n"), out)
     return m2, n
 
@@ -642,6 +723,24 @@ def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
     w *= _work_share(depth, c)
 
 
+def _stored_energy_at(u2: Any, v: Any, c: Constants) -> Any:
+    """`stored_energy` of floats, where nothing is extreme."""
+    alpha, zeta, eta, minus_half_p, gamma, per_p, p = c.of_stored_energy
+    v1, v3 = v
+    stretch = v3 - 1
+    kappa_2, lam_1, lam_3 = alpha * u2, zeta * v1, eta * stretch
+    q = kappa_2 * kappa_2 + lam_1 * lam_1 + lam_3 * lam_3
+    if type(q) is not float or (not LOW < q < 1 and any((u2, v1, stretch))):
+        raise _Extreme
+    x = sqrt(q)
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
+    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
+    depth = log1p(growth)
+    factor = gamma * exp(per_p * depth)
+    load = factor * x
+    return load * x * _work_share_at(depth, c)
+
+
 def stored_energy(
     u2: Given | float, v: Given, constants: Constants, out: Array | None = None
 ) -> Array:
@@ -650,7 +749,10 @@ def stored_energy(
     u2 (...) in 1/length, v (2, ...) plain (v1 and v3), with Q < 1 (eq:strainlimiting).
     """
     if out is None and type(v) is tuple and type(u2) is float:
-        answer: Array = _one(stored_energy, {"u2": u2, "v": v}, constants)
+        try:
+            answer: Array = _stored_energy_at(u2, v, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(stored_energy, {"u2": u2, "v": v}, constants)
         return answer
     (w,) = _apply(_stored_energy, {"u2": u2, "v": v}, constants, ("w",), out)
     return w
@@ -669,6 +771,25 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
     w_star *= y
 
 
+def _complementary_energy_at(m2: Any, n: Any, c: Constants) -> Any:
+    """`complementary_energy` of floats, where nothing is extreme."""
+    per_alpha, per_zeta, per_eta, gamma, p, minus_per_p = c.of_complementary_energy
+    n1, n3 = n
+    mu_2, nu_1, nu_3 = per_alpha * m2, per_zeta * n1, per_eta * n3
+    q_star = mu_2 * mu_2 + nu_1 * nu_1 + nu_3 * nu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m2, n1, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    strain = factor * y
+    depth = log1p(power) - p * (0.0 if y <= gamma else log(ratio))
+    return strain * y * (1 - _work_share_at(depth, c))
+
+
 def complementary_energy(
     m2: Given | float, n: Given, constants: Constants, out: Array | None = None
 ) -> Array:
@@ -677,7 +798,10 @@ def complementary_energy(
     m2 (...) in force times length, n (2, ...) in force (n1 and n3), with Q*^(1/2) finite.
     """
     if out is None and type(n) is tuple and type(m2) is float:
-        answer: Array = _one(complementary_energy, {"m2": m2, "n": n}, constants)
+        try:
+            answer: Array = _complementary_energy_at(m2, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(complementary_energy, {"m2": m2, "n": n}, constants)
         return answer
     (w_star,) = _apply(_complementary_energy, {"m2": m2, "n": n}, constants, ("w_star",), out)
     return w_star
@@ -758,9 +882,8 @@ def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
 
 
 def _stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
-    """`stiffness` of floats; None where it is left to arrays."""
-    whole = _loads_and_stiffness_at(u2, v, c)
-    return whole and whole[-1]
+    """`stiffness` of floats, where nothing is extreme."""
+    return _loads_and_stiffness_at(u2, v, c)[-1]
 
 
 def stiffness(u2: Given | float, v: Given, constants: Constants, out: Array | None = None) -> Array:
@@ -771,10 +894,10 @@ def stiffness(u2: Given | float, v: Given, constants: Constants, out: Array | No
     """
     if out is None and type(v) is tuple and type(u2) is float:
         try:
-            answer: Array | None = _stiffness_at(u2, v, constants)
+            answer: Array = _stiffness_at(u2, v, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(stiffness, {"u2": u2, "v": v}, constants)
+            answer = _one(stiffness, {"u2": u2, "v": v}, constants)
+        return answer
     (stiff,) = _apply(_stiffness, {"u2": u2, "v": v}, constants, ("stiff",), out)
     return stiff
 
@@ -867,29 +990,30 @@ def _loads_and_stiffness(
 
 
 def _loads_and_stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
-    """`loads_and_stiffness` of floats; None where it is left to arrays."""
+    """`loads_and_stiffness` of floats, where nothing is extreme."""
+    (
+        alpha, zeta, eta, minus_half_p, gamma, per_p, alpha_squared, zeta_squared, eta_squared,
+    ) = c.of_loads_and_stiffness
     v1, v3 = v
-    if not type(u2) is type(v1) is type(v3) is float:
-        return None
     stretch = v3 - 1
-    kappa_2, lam_1, lam_3 = c.alpha * u2, c.zeta * v1, c.eta * stretch
+    kappa_2, lam_1, lam_3 = alpha * u2, zeta * v1, eta * stretch
     q = kappa_2 * kappa_2 + lam_1 * lam_1 + lam_3 * lam_3
-    if not LOW < q < 1 and any((u2, v1, stretch)):
-        return None
+    if type(q) is not float or (not LOW < q < 1 and any((u2, v1, stretch))):
+        raise _Extreme
     x = sqrt(q)
-    raw_1 = -0.5 * c.p * log(q if q > LEAST else LEAST)
+    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
     growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
     depth = log1p(growth)
-    factor = c.gamma * exp(c.per_p * depth)
-    steep, bend, shear, extend = factor * growth, c.alpha * factor, c.zeta * factor, c.eta * factor
+    factor = gamma * exp(per_p * depth)
+    steep, bend, shear, extend = factor * growth, alpha * factor, zeta * factor, eta * factor
     per_size = 1 / (x if x > LEAST else LEAST)
-    bend_per_size, shear_per_size = c.alpha * per_size, c.zeta * per_size
-    extend_per_size, t2, t4 = c.eta * per_size, bend_per_size * kappa_2, lam_1 * shear_per_size
+    bend_per_size, shear_per_size = alpha * per_size, zeta * per_size
+    extend_per_size, t2, t4 = eta * per_size, bend_per_size * kappa_2, lam_1 * shear_per_size
     t6, steep_1, steep_2 = extend_per_size * lam_3, steep * t2, steep * t4
     steep_3 = steep * t6
-    k11, k12, k13 = c.alpha * c.alpha * factor + steep_1 * t2, steep_1 * t4, steep_1 * t6
-    k22, k23 = c.zeta * c.zeta * factor + steep_2 * t4, steep_2 * t6
-    k33 = c.eta * c.eta * factor + steep_3 * t6
+    k11, k12, k13 = alpha_squared * factor + steep_1 * t2, steep_1 * t4, steep_1 * t6
+    k22, k23 = zeta_squared * factor + steep_2 * t4, steep_2 * t6
+    k33 = eta_squared * factor + steep_3 * t6
     stiff = (
         (k11, k12, k13),
         (k12, k22, k23),
@@ -910,10 +1034,10 @@ def loads_and_stiffness(
     """
     if out is None and type(v) is tuple and type(u2) is float:
         try:
-            answer: Triple | None = _loads_and_stiffness_at(u2, v, constants)
+            answer: Triple = _loads_and_stiffness_at(u2, v, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(loads_and_stiffness, {"u2": u2, "v": v}, constants)
+            answer = _one(loads_and_stiffness, {"u2": u2, "v": v}, constants)
+        return answer
     m2, n, stiff = _apply(
         _loads_and_stiffness, {"u2": u2, "v": v}, constants, ("m2", "n", "stiff"), out
     )
@@ -971,6 +1095,44 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
         soft[i, :i] = soft[:i, i]
 
 
+def _compliance_at(m2: Any, n: Any, c: Constants) -> Any:
+    """`compliance` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_zeta, per_eta, gamma, p, minus_per_p, per_alpha_squared, per_zeta_squared,
+        per_eta_squared,
+    ) = c.of_compliance
+    n1, n3 = n
+    mu_2, nu_1, nu_3 = per_alpha * m2, per_zeta * n1, per_eta * n3
+    q_star = mu_2 * mu_2 + nu_1 * nu_1 + nu_3 * nu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m2, n1, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    per_size = 1 / (y if y > LEAST else LEAST)
+    a2, share = per_size * (mu_2 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
+    aa2 = a2 * a2
+    b1, b3, d2 = nu_1 * per_size, nu_3 * per_size, per_alpha * a2
+    bb1, bb3 = b1 * b1, b3 * b3
+    across = aa2 + bb1
+    steep = -factor * share
+    d4, d6, steep_1 = per_zeta * b1, per_eta * b3, d2 * steep
+    steep_2 = d4 * steep
+    s11, s12 = per_alpha_squared * factor * (aa2 * remain + bb1 + bb3), d4 * steep_1
+    s13 = d6 * steep_1
+    s22, s23 = per_zeta_squared * factor * (aa2 + bb1 * remain + bb3), d6 * steep_2
+    s33 = per_eta_squared * factor * (across + bb3 * remain)
+    return (
+        (s11, s12, s13),
+        (s12, s22, s23),
+        (s13, s23, s33),
+    )
+
+
 def compliance(
     m2: Given | float, n: Given, constants: Constants, out: Array | None = None
 ) -> Array:
@@ -980,7 +1142,10 @@ def compliance(
     Rows and columns are ordered (u2, v1, v3) and (m2, n1, n3).
     """
     if out is None and type(n) is tuple and type(m2) is float:
-        answer: Array = _one(compliance, {"m2": m2, "n": n}, constants)
+        try:
+            answer: Array = _compliance_at(m2, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(compliance, {"m2": m2, "n": n}, constants)
         return answer
     (soft,) = _apply(_compliance, {"m2": m2, "n": n}, constants, ("soft",), out)
     return soft
@@ -1046,6 +1211,25 @@ def _strains_and_gap(
     limit_gap[...] = remain
 
 
+def _strains_and_gap_at(m2: Any, n: Any, c: Constants) -> Any:
+    """`strains_and_gap` of floats, where nothing is extreme."""
+    per_alpha, per_zeta, per_eta, gamma, p, minus_per_p = c.of_strains_and_gap
+    n1, n3 = n
+    mu_2, nu_1, nu_3 = per_alpha * m2, per_zeta * n1, per_eta * n3
+    q_star = mu_2 * mu_2 + nu_1 * nu_1 + nu_3 * nu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m2, n1, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    bend, shear, extend = per_alpha * factor, per_zeta * factor, per_eta * factor
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    return bend * mu_2, (nu_1 * shear, extend * nu_3 + 1), remain
+
+
 def strains_and_gap(
     m2: Given | float, n: Given, constants: Constants, out: Triple | None = None
 ) -> Triple:
@@ -1056,7 +1240,10 @@ def strains_and_gap(
     near the limit it says what the strains no longer can.
     """
     if out is None and type(n) is tuple and type(m2) is float:
-        answer: Triple = _one(strains_and_gap, {"m2": m2, "n": n}, constants)
+        try:
+            answer: Triple = _strains_and_gap_at(m2, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(strains_and_gap, {"m2": m2, "n": n}, constants)
         return answer
     u2, v, limit_gap = _apply(
         _strains_and_gap, {"m2": m2, "n": n}, constants, ("u2", "v", "limit_gap"), out
@@ -1132,6 +1319,39 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
         stiff[i, :i] = stiff[:i, i]
 
 
+def _stiffness_at_loads_at(m2: Any, n: Any, c: Constants) -> Any:
+    """`stiffness_at_loads` of floats, where nothing is extreme."""
+    (
+        per_alpha, per_zeta, per_eta, half_p, per_gamma, gamma, per_p, alpha, zeta, eta,
+        alpha_squared, zeta_squared, eta_squared,
+    ) = c.of_stiffness_at_loads
+    n1, n3 = n
+    mu_2, nu_1, nu_3 = per_alpha * m2, per_zeta * n1, per_eta * n3
+    q_star = mu_2 * mu_2 + nu_1 * nu_1 + nu_3 * nu_3
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m2, n1, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    raw_1 = per_gamma * y
+    rise = (raw_1 if raw_1 > LEAST else LEAST)**half_p
+    raw_2 = 1 / (rise if rise > LEAST else LEAST)
+    half = raw_2 if raw_2 < rise else rise
+    power = half * half
+    factor = exp(per_p * log1p(power)) * (y if y > gamma else gamma)
+    rise_per_size = rise / (y if y > LEAST else LEAST)
+    bend_rise, shear_rise = alpha * rise_per_size, zeta * rise_per_size
+    extend_rise, h2, h4 = eta * rise_per_size, bend_rise * mu_2, nu_1 * shear_rise
+    h6, factor_1, factor_2 = extend_rise * nu_3, factor * h2, factor * h4
+    factor_3 = factor * h6
+    k11, k12, k13 = alpha_squared * factor + factor_1 * h2, factor_1 * h4, factor_1 * h6
+    k22, k23 = zeta_squared * factor + factor_2 * h4, factor_2 * h6
+    k33 = eta_squared * factor + factor_3 * h6
+    return (
+        (k11, k12, k13),
+        (k12, k22, k23),
+        (k13, k23, k33),
+    )
+
+
 def stiffness_at_loads(
     m2: Given | float, n: Given, constants: Constants, out: Array | None = None
 ) -> Array:
@@ -1142,7 +1362,10 @@ def stiffness_at_loads(
     The inverse of the compliance; it holds where strains no longer tell the loads.
     """
     if out is None and type(n) is tuple and type(m2) is float:
-        answer: Array = _one(stiffness_at_loads, {"m2": m2, "n": n}, constants)
+        try:
+            answer: Array = _stiffness_at_loads_at(m2, n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(stiffness_at_loads, {"m2": m2, "n": n}, constants)
         return answer
     (stiff,) = _apply(_stiffness_at_loads, {"m2": m2, "n": n}, constants, ("stiff",), out)
     return stiff

@@ -12,8 +12,8 @@ eq:strainlimiting proved.
 Domain: loads with finite Q*^(1/2).
 
 One point: tuples of numbers (a float for a single component) are answered with tuples of floats,
-in plain Python. They agree with the arrays' answers within 8 ulps of the largest component; of
-loads and stiffness near the limit, as far as the strains determine them.
+in plain Python, where nothing is extreme. They agree with the arrays' answers within 8 ulps of
+the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                20    4    0    5
@@ -29,7 +29,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from math import exp, log1p, sqrt
+from math import exp, expm1, log, log1p, sqrt
 from typing import Any
 
 import numpy as np
@@ -130,6 +130,37 @@ class Constants:
             term *= (k + 1 - 2 * a) / (k + 1) / 9
         start = math.exp(2 * a * math.log(8 / 9)) * 0.5 / at_split + math.fsum(powers)
         return fraction, powers, start, slope, single
+
+    @cached_property
+    def of_strains(self) -> tuple[float, ...]:
+        """What `strains` of one point takes."""
+        return (
+            self.per_zeta, self.n3_dilates, -self.chirality, self.gap, self.gamma, self.p,
+            -self.per_p, self.per_beta, self.per_eta,
+        )
+
+    @cached_property
+    def of_complementary_energy(self) -> tuple[float, ...]:
+        """What `complementary_energy` of one point takes."""
+        return (
+            self.per_zeta, self.n3_dilates, self.gap, self.gamma, self.p, -self.per_p,
+        )
+
+    @cached_property
+    def of_compliance(self) -> tuple[float, ...]:
+        """What `compliance` of one point takes."""
+        return (
+            self.per_zeta, self.n3_dilates, self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+            self.per_zeta**2, self.per_eta**2, self.per_gap,
+        )
+
+    @cached_property
+    def of_strains_and_gap(self) -> tuple[float, ...]:
+        """What `strains_and_gap` of one point takes."""
+        return (
+            self.per_zeta, self.n3_dilates, -self.chirality, self.gap, self.gamma, self.p,
+            -self.per_p, self.per_beta, self.per_eta,
+        )
 
 
 class Plain:
@@ -277,6 +308,23 @@ def _work_share(depth: Array, c: Constants) -> Array:
     return share
 
 
+def _work_share_at(depth: float, c: Constants) -> float:
+    """`_work_share` of one point."""
+    fraction, powers, start, slope, single = c.work_share
+    beyond = depth - log(9)
+    if beyond <= 0:
+        growth, value = expm1(depth), 1.0
+        for term in reversed(fraction):
+            value = growth / value * term + 1
+        return 0.5 / value
+    left, rest = exp(-beyond), 0.0
+    for coefficient in reversed(powers):
+        rest = rest * left + coefficient
+    turns = -expm1(min(-slope * beyond, 80)) / slope if slope else beyond
+    inner = exp(-beyond / c.p) * (start + single * turns) - left * rest
+    return inner * exp(-2 / c.p * log1p(-left / 9))
+
+
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
     ready = [*map(np.asarray, inputs.values())]
@@ -358,9 +406,16 @@ def _apply(
     return results
 
 
+class _Extreme(ArithmeticError):
+    """A point that plain Python leaves to arrays."""
+
+
 def _one(law: Callable[..., Any], inputs: Inputs, c: Constants) -> Any:
     """``law`` of one point by way of arrays, or again in floats if it was given other numbers."""
-    arrays, shape = _arguments(inputs)
+    try:
+        arrays, shape = _arguments(inputs)
+    except ValueError as wrong:
+        raise wrong from None
     if shape:  # tuples of arrays
         return law(*map(np.asarray, inputs.values()), c)
     floats = [a.astype(float).tolist() for a in arrays]
@@ -433,22 +488,23 @@ def _strains(loads: Rows, c: Constants, work: Array, u3: Array, v: Array) -> Non
 
 
 def _strains_at(n: Any, c: Constants) -> Any:
-    """`strains` of floats; None where it is left to arrays."""
+    """`strains` of floats, where nothing is extreme."""
+    (
+        per_zeta, n3_dilates, minus_chirality, gap, gamma, p, minus_per_p, per_beta, per_eta,
+    ) = c.of_strains
     n1, n2, n3 = n
-    if not type(n1) is type(n2) is type(n3) is float:
-        return None
-    nu_1, nu_2, dilatation = c.per_zeta * n1, c.per_zeta * n2, c.n3_dilates * n3
-    twist = -c.chirality * dilatation
-    q_star = c.gap * dilatation * dilatation + nu_1 * nu_1 + nu_2 * nu_2
-    if not LOW < q_star < HIGH and any((n1, n2, n3)):
-        return None
+    nu_1, nu_2, dilatation = per_zeta * n1, per_zeta * n2, n3_dilates * n3
+    twist = minus_chirality * dilatation
+    q_star = gap * dilatation * dilatation + nu_1 * nu_1 + nu_2 * nu_2
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((n1, n2, n3))):
+        raise _Extreme
     y = sqrt(q_star)
-    larger = y if y > c.gamma else c.gamma
-    raw_1 = (y if y < c.gamma else c.gamma) / larger
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
     ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**c.p
-    factor = exp(-c.per_p * log1p(power)) / larger
-    turn, shear, extend = c.per_beta * factor, c.per_zeta * factor, c.per_eta * factor
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    turn, shear, extend = per_beta * factor, per_zeta * factor, per_eta * factor
     return turn * twist, (nu_1 * shear, nu_2 * shear, dilatation * extend + 1)
 
 
@@ -460,10 +516,10 @@ def strains(n: Given, constants: Constants, out: Pair | None = None) -> Pair:
     """
     if out is None and type(n) is tuple:
         try:
-            answer: Pair | None = _strains_at(n, constants)
+            answer: Pair = _strains_at(n, constants)
         except (ArithmeticError, TypeError, ValueError):
-            answer = None
-        return answer or _one(strains, {"n": n}, constants)
+            answer = _one(strains, {"n": n}, constants)
+        return answer
     u3, v = _apply(_strains, {"n": n}, constants, ("u3", "v"), out)
     return u3, v
 
@@ -481,13 +537,35 @@ def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array)
     w_star *= y
 
 
+def _complementary_energy_at(n: Any, c: Constants) -> Any:
+    """`complementary_energy` of floats, where nothing is extreme."""
+    per_zeta, n3_dilates, gap, gamma, p, minus_per_p = c.of_complementary_energy
+    n1, n2, n3 = n
+    nu_1, nu_2, dilatation = per_zeta * n1, per_zeta * n2, n3_dilates * n3
+    q_star = gap * dilatation * dilatation + nu_1 * nu_1 + nu_2 * nu_2
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((n1, n2, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    strain = factor * y
+    depth = log1p(power) - p * (0.0 if y <= gamma else log(ratio))
+    return strain * y * (1 - _work_share_at(depth, c))
+
+
 def complementary_energy(n: Given, constants: Constants, out: Array | None = None) -> Array:
     """Complementary energy W* per length, in force (eq:compenergy), with the trailing shape.
 
     n (3, ...) in force, with Q*^(1/2) finite.
     """
     if out is None and type(n) is tuple:
-        answer: Array = _one(complementary_energy, {"n": n}, constants)
+        try:
+            answer: Array = _complementary_energy_at(n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(complementary_energy, {"n": n}, constants)
         return answer
     (w_star,) = _apply(_complementary_energy, {"n": n}, constants, ("w_star",), out)
     return w_star
@@ -545,6 +623,44 @@ def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
         soft[i, :i] = soft[:i, i]
 
 
+def _compliance_at(n: Any, c: Constants) -> Any:
+    """`compliance` of floats, where nothing is extreme."""
+    (
+        per_zeta, n3_dilates, gap, gamma, p, minus_per_p, per_eta, per_zeta_squared,
+        per_eta_squared, per_gap,
+    ) = c.of_compliance
+    n1, n2, n3 = n
+    nu_1, nu_2, dilatation = per_zeta * n1, per_zeta * n2, n3_dilates * n3
+    q_star = gap * dilatation * dilatation + nu_1 * nu_1 + nu_2 * nu_2
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((n1, n2, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    per_size = 1 / (y if y > LEAST else LEAST)
+    b1, share = per_size * (nu_1 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
+    bb1 = b1 * b1
+    b2, c6, d4 = nu_2 * per_size, dilatation * per_size, per_zeta * b1
+    bb2, cc6 = b2 * b2, c6 * c6
+    across = bb1 + bb2
+    coupled, d5, d6 = gap * cc6, per_zeta * b2, per_eta * c6
+    steep = -factor * share
+    steep_1, steep_2 = d4 * steep, d5 * steep
+    s11, s12 = per_zeta_squared * factor * (bb1 * remain + bb2 + coupled), d5 * steep_1
+    s13 = d6 * steep_1
+    s22, s23 = per_zeta_squared * factor * (bb1 + bb2 * remain + coupled), d6 * steep_2
+    s33 = per_eta_squared * factor * (per_gap * across + cc6 * remain)
+    return (
+        (s11, s12, s13),
+        (s12, s22, s23),
+        (s13, s23, s33),
+    )
+
+
 def compliance(n: Given, constants: Constants, out: Array | None = None) -> Array:
     """Compliance d v/d n, (3, 3, ...), symmetric positive definite (Section 3.4).
 
@@ -552,7 +668,10 @@ def compliance(n: Given, constants: Constants, out: Array | None = None) -> Arra
     Rows and columns are ordered (v1, v2, v3) and (n1, n2, n3).
     """
     if out is None and type(n) is tuple:
-        answer: Array = _one(compliance, {"n": n}, constants)
+        try:
+            answer: Array = _compliance_at(n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(compliance, {"n": n}, constants)
         return answer
     (soft,) = _apply(_compliance, {"n": n}, constants, ("soft",), out)
     return soft
@@ -618,6 +737,28 @@ def _strains_and_gap(
     limit_gap[...] = remain
 
 
+def _strains_and_gap_at(n: Any, c: Constants) -> Any:
+    """`strains_and_gap` of floats, where nothing is extreme."""
+    (
+        per_zeta, n3_dilates, minus_chirality, gap, gamma, p, minus_per_p, per_beta, per_eta,
+    ) = c.of_strains_and_gap
+    n1, n2, n3 = n
+    nu_1, nu_2, dilatation = per_zeta * n1, per_zeta * n2, n3_dilates * n3
+    twist = minus_chirality * dilatation
+    q_star = gap * dilatation * dilatation + nu_1 * nu_1 + nu_2 * nu_2
+    if type(q_star) is not float or (not LOW < q_star < HIGH and any((n1, n2, n3))):
+        raise _Extreme
+    y = sqrt(q_star)
+    larger = y if y > gamma else gamma
+    raw_1 = (y if y < gamma else gamma) / larger
+    ratio = raw_1 if raw_1 > LEAST else LEAST
+    power = ratio**p
+    factor = exp(minus_per_p * log1p(power)) / larger
+    turn, shear, extend = per_beta * factor, per_zeta * factor, per_eta * factor
+    remain = (1.0 if y <= gamma else power) / (power + 1)
+    return turn * twist, (nu_1 * shear, nu_2 * shear, dilatation * extend + 1), remain
+
+
 def strains_and_gap(n: Given, constants: Constants, out: Triple | None = None) -> Triple:
     """Strains u3, v under the loads n, and 1 - Q^(p/2).
 
@@ -626,7 +767,10 @@ def strains_and_gap(n: Given, constants: Constants, out: Triple | None = None) -
     near the limit it says what the strains no longer can.
     """
     if out is None and type(n) is tuple:
-        answer: Triple = _one(strains_and_gap, {"n": n}, constants)
+        try:
+            answer: Triple = _strains_and_gap_at(n, constants)
+        except (ArithmeticError, TypeError, ValueError):
+            answer = _one(strains_and_gap, {"n": n}, constants)
         return answer
     u3, v, limit_gap = _apply(_strains_and_gap, {"n": n}, constants, ("u3", "v", "limit_gap"), out)
     return u3, v, limit_gap

@@ -2,30 +2,40 @@
 
 from __future__ import annotations
 
+import inspect
 import math
-import random
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rodproof.codegen import generate
+from rodproof.codegen import generate, scene
+from rodproof.codegen.live import groups, live
+from rodproof.codegen.scene import FUNCTIONS_OF_LOADS as OF_LOADS
 from rodproof.codegen.scene import Scene
 from rodproof.generated.scenes import dsdna, full_rod, kirchhoff
 
 GOOD = {"alpha": 0.7, "beta": 1.1, "zeta": 0.9, "eta": 1.6, "iota": -0.4, "gamma": 2.3}
 C = full_rod.Constants(**GOOD, p=3.3)
-OF_LOADS = ("strains", "complementary_energy", "compliance", "stiffness_at_loads")
-OTHERS = ("loads", "stored_energy", "stiffness", "loads_and_stiffness")
+SCENES = {name: scene.committed(name) for name in scene.committed_names()}
+MODULES = {name: import_module(f"rodproof.generated.scenes.{name}") for name in SCENES}
+CALLS = [(name, function) for name, own in SCENES.items() for function in own.functions]
 #: How far the two ways may be apart, normwise, in ulps; near the limit times the conditioning.
 APART = 8
 finite = st.floats(-1e160, 1e160, allow_nan=False)
 anything = st.one_of(finite, st.sampled_from([0.0, 5e-324, -1e-310, 1e-170, 1e155, 7]))
+exponents = st.sampled_from([0.3, 1 - 1e-10, 1.0, 2.0, 3.3, 40.0, 1e3])
+radii = st.one_of(
+    st.just(0.0),
+    st.floats(0, 200).map(lambda k: 10.0**-k),
+    st.floats(0, 8).map(lambda k: 1 - 10.0**-k),
+)
 
 
 def flat(answer: object) -> list[float]:
@@ -44,36 +54,85 @@ def shape(answer: object) -> object:
     return [shape(part) for part in answer] if isinstance(answer, tuple) else type(answer)
 
 
-@given(values=st.lists(anything, min_size=6, max_size=6), p=st.sampled_from([0.3, 1.0, 2.0, 1e3]))
-def test_same_values_at_any_load(values: list[float], p: float) -> None:
-    """Rest, subnormal and huge loads, whole numbers: without a warning, as floats."""
-    c = full_rod.Constants(**GOOD, p=p)
-    m, n = values[:3], values[3:]
-    with np.errstate(all="raise", under="ignore"):
-        got = full_rod.strains(tuple(m), tuple(n), c)
-        want = full_rod.strains(m, n, c)
-    assert shape(got) == [[float] * 3, [float] * 3]
-    for a, b in zip(got, want, strict=True):
-        assert np.abs(np.array(a) - b).max() <= APART * 2**-52 * np.abs(b).max() + 5e-324
+def constants_of(own: str, p: float) -> Any:
+    """Constants of the scene's module: the good ones that it has, and p if it is free."""
+    record = MODULES[own].Constants
+    names = inspect.signature(record).parameters
+    return record(**{k: v for k, v in {**GOOD, "p": p}.items() if k in names})
 
 
-@pytest.mark.parametrize("function", OTHERS)
-@pytest.mark.parametrize("p", [0.3, 1 - 1e-10, 2.0, 40.0, 1e3])
-def test_same_values_at_any_strain(function: str, p: float) -> None:
-    c, rng = full_rod.Constants(**GOOD, p=p), random.Random(f"{function} {p}")
-    law = getattr(full_rod, function)
-    for _ in range(60):
-        w = [rng.gauss(0, 1) for _ in range(6)]
-        e = [w[0] / 0.7, w[1] / 0.7, w[2] / 1.1, w[3] / 0.9, w[4] / 0.9, w[5] / 1.6]
-        q = math.sqrt(sum(a * a for a in w) + 2 * c.chirality * w[2] * w[5])
-        gap = 10.0 ** -rng.uniform(0, 8)
-        x = rng.choice([0.0, 10.0 ** -rng.uniform(0, 200), 1 - gap])
-        u, v = [x / q * a for a in e[:3]], [x / q * a for a in e[3:]]
-        v[2] += 1
-        got, want = flat(law(tuple(u), tuple(v), c)), arrays(law(u, v, c))
-        worst = np.abs(np.array(got) - want).max() / max(np.abs(want).max(), 1e-300)
-        assert worst <= APART * 2**-52 * (1 + (1 + 1 / p) / (1 - x)), (u, v)
-        assert all(type(number) is float for number in got)
+def both(own: str, function: str, values: list[float], c: Any) -> tuple[object, object]:
+    """The answers to a point as tuples and as arrays; components that the scene lacks are left."""
+    law = getattr(MODULES[own], function)
+    parts = groups("mn" if function in OF_LOADS else "uv", live(SCENES[own]).loads)
+    point = [[values[i] for i in g.components] for g in parts]
+    one = [tuple(part) if len(part) > 1 else float(part[0]) for part in point]
+    many = [np.array(part) if len(part) > 1 else np.array(part[0]) for part in point]
+    with np.errstate(all="ignore"):
+        return law(*one, c), law(*many, c)
+
+
+def apart(got: object, want: object) -> float:
+    """Ulps of the largest component of each array; numbers out of range must be so in both."""
+    worst = 0.0
+    single = isinstance(want, np.ndarray) or np.isscalar(want)
+    for one, many in [(got, want)] if single else zip(got, want, strict=True):  # type: ignore[call-overload]
+        a, b = np.array(one), np.array(many)
+        assert a.shape == b.shape
+        assert all(type(number) is float for number in flat(one))
+        assert np.array_equal(np.isfinite(a), np.isfinite(b)), (a, b)
+        if np.isfinite(b).all():
+            left = np.maximum(np.abs(a - b) - 2.0**-1022, 0)
+            worst = max(worst, float((left / max(np.abs(b).max(), 2.0**-1022)).max() * 2**52))
+    return worst
+
+
+@pytest.mark.parametrize(("own", "function"), [c for c in CALLS if c[1] in OF_LOADS])
+@settings(max_examples=25)
+@given(values=st.lists(anything, min_size=6, max_size=6), p=exponents)
+def test_same_values_at_any_load(own: str, function: str, values: list[float], p: float) -> None:
+    """Rest, subnormal and huge loads, whole numbers.
+
+    What grows as y^p, or falls so, carries p ulps, and those of the logarithm it is taken by.
+    """
+    c = constants_of(own, p)
+    got, want = both(own, function, values, c)
+    bound: float = APART
+    if function in ("stiffness_at_loads", "strains_and_gap"):
+        last = np.abs(want[-1] if isinstance(want, tuple) else want).max()
+        bound += APART * getattr(c, "p", 2.0) + abs(math.log(last if 0 < last < math.inf else 1))
+    assert apart(got, want) <= bound
+
+
+@pytest.mark.parametrize(("own", "function"), [c for c in CALLS if c[1] not in OF_LOADS])
+@settings(max_examples=25)
+@given(direction=st.lists(finite.filter(bool), min_size=6, max_size=6), radius=radii, p=exponents)
+def test_same_values_at_any_strain(
+    own: str, function: str, direction: list[float], radius: float, p: float
+) -> None:
+    """From rest to the limit; there the strains hardly determine loads and stiffness."""
+    c, at = constants_of(own, p), live(SCENES[own]).loads
+    largest = max(abs(direction[i]) for i in at)
+    w = [direction[i] / largest if i in at else 0.0 for i in range(6)]
+    q = sum(a * a for a in w) + 2 * getattr(c, "chirality", 0.0) * w[2] * w[5]
+    moduli = [getattr(c, name, 1.0) for name in ("alpha", "alpha", "beta", "zeta", "zeta", "eta")]
+    strains = [radius / math.sqrt(q) * a / b for a, b in zip(w, moduli, strict=True)]
+    strains[5] += 1
+    try:
+        got, want = both(own, function, strains, c)
+    except ValueError as error:  # at the limit to a few ulps
+        assert "Q(u, v) < 1" in str(error) and radius > 1 - 1e-14
+        return
+    assert apart(got, want) <= APART * (1 + (1 + 1 / getattr(c, "p", 2.0)) / max(1 - radius, 2**-50))
+
+
+def test_energies_by_either_form_of_the_share() -> None:
+    """Up to exp(depth) = 9 and beyond, at exponents around those where the sum changes its form."""
+    for p in (0.3, 0.5, 1 - 1e-10, 1.0, 1 + 1e-10, 2.0, 3.3, 40.0, 1e3):
+        c = full_rod.Constants(**GOOD, p=p)
+        depths = np.concatenate([np.linspace(0, 3, 40), 10.0 ** np.linspace(-12, 2.5, 60)])
+        got = [full_rod._work_share_at(depth, c) for depth in depths.tolist()]
+        np.testing.assert_allclose(got, full_rod._work_share(depths, c), rtol=APART * 2**-52)
 
 
 def test_the_shapes_of_answers() -> None:
@@ -156,4 +215,5 @@ def test_ordinary_points_take_the_plain_way() -> None:
     assert full_rod._strains_at(m, n, C) == full_rod.strains(m, n, C)
     u, v = full_rod.strains(m, n, C)
     assert full_rod._stiffness_at(u, v, C) == full_rod.stiffness(u, v, C)
-    assert full_rod._loads_at(u, (0.0, 0.0, 9.0), C) is None
+    with pytest.raises(full_rod._Extreme):
+        full_rod._loads_at(u, (0.0, 0.0, 9.0), C)
