@@ -92,7 +92,7 @@ def point(
         left = left[head[0] if head else 1 :]
     guards = _guards(kernel)
     if not guards:
-        lines += _left(" is ".join([*(f"type({name})" for name in kernel.inputs), "not float"]))
+        lines += _left(f"not {' is '.join([*(f'type({n})' for n in kernel.inputs), 'float'])}")
     spelling = {name: name for name in (*spelling, *(a.name for a in hoisted.constants))}
     body = scalar.body(hoisted, scalar.PYTHON, spelling, guards, packed=scene.matrix == "packed")
     return "\n".join([*lines, *body.lines, *scalar.returned(body.answer)])

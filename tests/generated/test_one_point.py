@@ -191,6 +191,29 @@ def test_numbers_that_are_no_floats_become_floats() -> None:
     assert shape(huge) == [[float] * 3, [float] * 3]
 
 
+def test_without_guards_other_numbers_become_floats_too(
+    module_of: Callable[[Scene], ModuleType],
+) -> None:
+    """Where ranges leave no guard to see the type of the square, every component is asked."""
+    ranges = dict.fromkeys(("alpha", "beta", "gamma", "p"), (1.0, 2.0))
+    ranges |= {"m1": (0.1, 0.5), "m2": (-1.0, 1.0), "m3": (-1.0, 1.0)}
+    own = Scene(
+        "unguarded_point",
+        constraints=("unshearable", "inextensible"),
+        functions=("strains", "compliance"),
+        ranges=ranges,
+    )
+    assert "_Extreme" in generate.render(own) and "_balanced" not in generate.render(own)
+    law = module_of(own)
+    c = law.Constants(alpha=1.2, beta=1.1, gamma=1.3, p=1.4)
+    m = (0.2, 0.5, -0.3)
+    for function in (law.strains, law.compliance):
+        for given_ in (tuple(map(np.float64, m)), (np.float64(0.2), 0.5, -0.3)):
+            assert function(given_, c) == function(m, c)
+            assert all(type(number) is float for number in flat(function(given_, c)))
+        np.testing.assert_allclose(function(m, c), function(list(m), c), rtol=1e-14)
+
+
 def test_tuples_of_arrays_and_lists_are_arrays() -> None:
     row = np.linspace(0, 1, 5)
     u, v = full_rod.strains((row, row, row), (row, 2 * row, row), C)
