@@ -13,6 +13,7 @@ from collections.abc import Mapping
 
 from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.scene import Scene
+from rodproof.codegen.targets import numpy_gauge as gauge
 from rodproof.codegen.targets import numpy_point as one
 from rodproof.codegen.targets import numpy_template as template
 from rodproof.codegen.targets.numpy_body import (
@@ -63,8 +64,8 @@ def print_module(
         *(step_function(step, scene) for step in steps.values()),
     ]
     gauges = {handed(kernel)[1] for kernel in kernels if kernel.gauge}
-    parts += [template.RESCALED] if gauges else []
-    parts += [template.BALANCED] if "_balanced" in gauges else []
+    parts += [gauge.RESCALED] if gauges else []
+    parts += [gauge.BALANCED] if "_balanced" in gauges else []
     parts += [template.WORK_SHARE, one.WORK_SHARE] if needs_work_share(kernels) else []
     if limited:
         parts.append(template.RAISE if raising else template.NAN)
