@@ -17,7 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import mutually_broadcastable_shapes
 
-from rodproof.codegen import generate
+from rodproof.codegen import files, generate
 from rodproof.codegen.scene import FUNCTIONS_OF_LOADS as OF_LOADS
 from rodproof.codegen.scene import Scene
 from rodproof.derivations import ledger
@@ -343,7 +343,7 @@ def test_check_finds_changed_missing_and_stray(tmp_path: Path) -> None:
 
 def test_own_scene_is_written_whole_or_not_at_all(tmp_path: Path, monkeypatch) -> None:
     path = tmp_path / "law.py"
-    generate.write_text(path, generate.render(Scene("law", functions=("strains",))))
+    files.write_text(path, generate.render(Scene("law", functions=("strains",))))
     before = path.read_text("utf-8")
 
     def refuse(self: Path, target: Path) -> None:
@@ -351,7 +351,7 @@ def test_own_scene_is_written_whole_or_not_at_all(tmp_path: Path, monkeypatch) -
 
     monkeypatch.setattr(Path, "replace", refuse)
     with pytest.raises(OSError, match="disk full"):
-        generate.write_text(path, "half")
+        files.write_text(path, "half")
     assert path.read_text("utf-8") == before
     assert [p.name for p in tmp_path.iterdir()] == ["law.py"]
 

@@ -15,7 +15,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rodproof.codegen import generate, scene
+from rodproof.codegen import files, generate, scene
 from rodproof.codegen.live import groups, live
 from rodproof.codegen.scene import FUNCTIONS_OF_LOADS as OF_LOADS
 from rodproof.codegen.scene import Scene
@@ -161,7 +161,7 @@ def module_of(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[Scen
     monkeypatch.syspath_prepend(tmp_path)
 
     def load(scene: Scene) -> ModuleType:
-        generate.write_text(tmp_path / f"{scene.name}.py", generate.render(scene))
+        files.write_text(tmp_path / f"{scene.name}.py", generate.render(scene))
         return import_module(scene.name)
 
     return load
