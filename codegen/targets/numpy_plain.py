@@ -32,9 +32,11 @@ class Plain:
     def __init__(self, c: Constants) -> None:
 $exact$values
         used = [v for v in $used if v]
-$regions        for kind, tiny in TINY.items():
+$regions        self.room: dict[Any, tuple[float, float]] = {}
+        for kind, tiny in TINY.items():
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
+            self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
 $bounds
 
 

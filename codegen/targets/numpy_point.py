@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
-from rodproof.codegen.kernel import Kernel
+import sympy as sp
+from sympy.codegen.cfunctions import expm1, log1p
+
+from rodproof.codegen.kernel import Assignment, Kernel, symbol
+from rodproof.codegen.passes.specialise import drop_dead
 from rodproof.codegen.scene import CONSTANT_NAMES, Scene
 from rodproof.codegen.targets import scalar
 from rodproof.codegen.targets.printer import Printer
@@ -14,6 +19,8 @@ INDENT = "    "
 WIDTH = 100
 FUNCTIONS = ("exp", "expm1", "log", "log1p", "sqrt")
 LOW = "LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing"
+NOUGHT = "NOUGHT = 2.0**-700  # stands for a square at rest: its inverse is a number"
+DOUBLE = "DOUBLE = np.dtype(np.float64)"
 LEAST = "LEAST = 2.0**-1022  # the smallest normal number, for one point"
 LOG_MOST = "LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number"
 
@@ -83,8 +90,8 @@ def point(
     if is_part(kernel, kernels):
         whole = f"_loads_and_stiffness_at({', '.join(text.inputs)}, c)"
         return "\n".join([*lines, f"{INDENT}return {whole}[-1]"])
-    hoisted = scalar.hoisted(kernel)
-    lines += _taken(hoisted)
+    hoisted = _hoisted(kernel)
+    lines += _taken(kernel)
     left = list(kernel.inputs)
     for name, head in text.inputs.items():
         if head:
@@ -105,19 +112,49 @@ def is_part(kernel: Kernel, kernels: tuple[Kernel, ...]) -> bool:
 
 def constants_taken(kernel: Kernel) -> tuple[str, ...]:
     """The numbers that the function of one point takes, hoisted ones included, in its order."""
-    hoisted = scalar.hoisted(kernel)
+    hoisted = _hoisted(kernel)
     made = {a.name for a in hoisted.constants}
     used = [s.name for e in hoisted.expressions() for s in sorted(e.free_symbols, key=str)]
     return tuple(n for n in dict.fromkeys(used) if n in made | set(CONSTANT_NAMES))
 
 
+def _hoisted(kernel: Kernel) -> Kernel:
+    """The kernel that is printed, with its products of constants: the plain one, if there is one.
+
+    It holds further than on arrays, for any large load and small strain: a power of Python does not
+    multiply the rounding of a logarithm, and 1 - x^p takes the place of the growth.
+    """
+    if kernel.plain is None:
+        return scalar.hoisted(kernel)
+    body: list[Assignment] = []
+    changed: dict[sp.Expr, sp.Expr] = {}
+    left = symbol("left")
+    for a in kernel.plain.body:
+        for node in a.expr.atoms(sp.exp):
+            rate, log = node.args[0].as_independent(log1p)
+            if isinstance(log, log1p):
+                known = log.args[0] == symbol("growth")
+                changed[node] = left ** (-rate) if known else (1 + log.args[0]) ** rate
+        if a.expr.func == sp.Pow and isinstance(a.expr.base, expm1):  # the growth x^p/(1 - x^p)
+            body += [Assignment("left", -expm1(-a.expr.base.args[0]))]
+            body += [replace(a, expr=1 / left - 1)]
+        else:
+            body.append(replace(a, expr=a.expr.xreplace(changed)))
+    outputs = tuple(replace(o, expr=o.expr.xreplace(changed)) for o in kernel.plain.outputs)
+    return scalar.hoisted(drop_dead(replace(kernel.plain, body=tuple(body), outputs=outputs)))
+
+
 def point_constants(kernel: Kernel) -> str:
     """The property of the record that hands these numbers out."""
-    hoisted = scalar.hoisted(kernel)
-    fields = {a.name for a in kernel.constants} | set(CONSTANT_NAMES)
-    printer = Printer({name: f"self.{name}" for name in fields})
+    hoisted, plain = _hoisted(kernel), kernel.plain
+    fields = {name: f"self.{name}" for name in CONSTANT_NAMES}
+    fields |= {
+        a.name: f"self.{'plain.' if plain else ''}{a.name}" for a in (plain or kernel).constants
+    }
+    printer = Printer(fields)
     made = {a.name: printer.text(a.expr) for a in hoisted.constants if a.name not in fields}
-    values = [made.get(name, f"self.{name}") for name in constants_taken(kernel)]
+    values = [(fields | made)[name] for name in constants_taken(kernel)]
+    values += ["*self.plain.room[DOUBLE]"] if plain else []
     return "\n".join(
         [
             f"{INDENT}@cached_property",
@@ -132,7 +169,7 @@ def point_constants(kernel: Kernel) -> str:
 
 def _taken(kernel: Kernel) -> list[str]:
     """The line that unpacks them."""
-    names = [*constants_taken(kernel)]
+    names = [*constants_taken(kernel), *(("low", "high") if kernel.plain else ())]
     line = f"{INDENT}{', '.join(names)} = c.of_{kernel.name}"
     if len(line) <= WIDTH:
         return [line]
@@ -144,20 +181,40 @@ def _guards(kernel: Kernel) -> dict[str, list[str]]:
 
     The square is a float if every input is a number of Python.
     """
-    if kernel.gauge:
-        inputs, square = kernel.gauge.inputs, kernel.gauge.square
+    inputs = tuple("stretch" if name == "v3" else name for name in kernel.inputs)
+    plain = kernel.plain.region if kernel.plain else None
+    if kernel.gauge or plain:
+        square = plain.quantity if plain else kernel.gauge.square if kernel.gauge else ""
         moved = f"any(({', '.join(inputs)}))" if len(inputs) > 1 else f"{inputs[0]} != 0"
-        within = f"LOW < {square} < {'1' if kernel.limit else 'HIGH'}"
-        return {square: _left(f"type({square}) is not float or (not {within} and {moved})")}
+        low, high = ("low", "high") if plain else ("LOW", "HIGH")
+        out = f"not {low} < {square} < {'1' if kernel.limit else high}"
+        off = f"({square} or low > high or {moved})" if plain else moved
+        lines = _left(f"type({square}) is not float", f"({out} and {off})")
+        lines += [f"{INDENT}{square} = {square} or NOUGHT"] if _floored(kernel) else []
+        return {square: lines}
     limits = (kernel.limit,) if kernel.limit else ()
     return {
-        q.quantity: _left(f"type({q.quantity}) is not float or not {q.quantity} < 1")
+        q.quantity: _left(f"type({q.quantity}) is not float", f"not {q.quantity} < 1")
         for q in limits
     }
 
 
-def _left(test: str) -> list[str]:
-    return [f"{INDENT}if {test}:", f"{INDENT * 2}raise _Extreme"]
+def _floored(kernel: Kernel) -> bool:
+    """Whether the plain kernel takes the logarithm of its quantity, or divides by it."""
+    region = kernel.plain.region if kernel.plain else None
+    if kernel.plain is None or region is None:
+        return False
+    quantity = symbol(region.quantity)
+    return any(e.has(1 / quantity) or e.has(expm1) for e in kernel.plain.expressions())
+
+
+def _left(*tests: str) -> list[str]:
+    """Lines that leave the point to arrays where one of the tests holds."""
+    line = f"{INDENT}if {' or '.join(tests)}:"
+    if len(line) > WIDTH:
+        first, last = tests
+        line = f"{INDENT}if {first} or (\n{INDENT * 2}{last[1:-1]}\n{INDENT}):"
+    return [line, f"{INDENT * 2}raise _Extreme"]
 
 
 def opening(kernel: Kernel, text: FunctionText, kind: str) -> list[str]:

@@ -117,6 +117,8 @@ def _imports(
     guards += [one.LEAST] if "LEAST" in single else []
     guards += [one.LOG_MOST] if "LOG_MOST" in single else []
     guards += [one.LOW] if "LOW" in single else []
+    guards += [one.NOUGHT] if "NOUGHT" in single else []
+    guards += [one.DOUBLE] if plain else []
     several = sorted({len(text.outputs) for text in words.values()} - {1})
     kinds = {2: "Pair = tuple[Array, Array]", 3: "Triple = tuple[Array, Array, Array]"}
     text = template.IMPORTS.substitute(

@@ -119,7 +119,7 @@ def hoisted(kernel: Kernel) -> Kernel:
             return -named(-expr)
         if expr.is_Mul:
             fixed, rest = expr.as_independent(*(expr.free_symbols - known), as_Add=False)
-            if not fixed.is_Atom and rest != 1:
+            if not fixed.is_Atom:
                 found.setdefault(fixed, symbol(_constant_name(fixed)))
                 return found[fixed] * named(rest)
         return expr.func(*(named(arg, term=expr.is_Add) for arg in expr.args))
@@ -220,6 +220,8 @@ def _grouped(assignments: Sequence[Assignment], printer: ScalarPrinter) -> list[
             line, texts = longer, more
             group.append(a)
             left.remove(a)
+            if printer.dialect.powers and len(group) == 3:  # Python makes a tuple of four
+                break
         lines.append(line)
     return lines
 
@@ -377,6 +379,8 @@ class ScalarPrinter(Printer):
             return f"sqrt({self.text(base, LOOSE)})", ATOM
         if exponent == 2 and base.is_Symbol:
             return f"{self.text(base)} * {self.text(base)}", PRODUCT
+        if exponent.is_Symbol:
+            return f"{self.text(base, ATOM)}**{self.text(exponent)}", POWER
         return super()._power(expr)
 
     def _choice(self, expr: sp.Piecewise) -> tuple[str, int]:

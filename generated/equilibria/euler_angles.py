@@ -35,6 +35,7 @@ ROWS = 23  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+DOUBLE = np.dtype(np.float64)
 HEADS = {"m": (3,), "n": (3,), "u": (3,), "v": (3,), "soft": (6, 6)}
 
 
@@ -106,8 +107,10 @@ class Constants:
     def of_strains(self) -> tuple[float, ...]:
         """What `strains` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, self.per_zeta, self.m3_contracts, self.n3_dilates,
-            self.chirality, self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load,
+            self.plain.shear_load, self.plain.slack, self.plain.turn_load, 0.5 * self.p,
+            -self.plain.per_p, self.plain.bend_soft, self.plain.shear_soft, self.plain.turn_soft,
+            self.plain.untwist, *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -141,9 +144,11 @@ class Plain:
         self.per_p = _rounded(1 / p)
         used = [v for v in vars(self).values() if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
+        self.room: dict[Any, tuple[float, float]] = {}
         for kind, tiny in TINY.items():
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
+            self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
 
@@ -430,32 +435,26 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None
 def _strains_at(m: Any, n: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
-        per_alpha, per_beta, per_zeta, m3_contracts, n3_dilates, chirality, gap, gamma, p,
-        minus_per_p, per_eta,
+        m3_extends, n3_extends, bend_load, shear_load, slack, turn_load, half_p, minus_per_p,
+        bend_soft, shear_soft, turn_soft, untwist, low, high,
     ) = c.of_strains
     m1, m2, m3 = m
     n1, n2, n3 = n
-    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
-    nu_2 = per_zeta * n2
-    dilatation = n3_dilates * n3 - m3_contracts * m3
-    twist = mu_3 - chirality * dilatation
-    q_star = (
-        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
-        + nu_2 * nu_2
+    extension = n3_extends * n3 - m3_extends * m3
+    overload = (
+        bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+        + shear_load * (n1 * n1 + n2 * n2)
     )
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3, n1, n2, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, turn, shear = per_alpha * factor, per_beta * factor, per_zeta * factor
-    extend = per_eta * factor
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend, shear = bend_soft * root, shear_soft * root
     return (
-        (bend * mu_1, bend * mu_2, turn * twist),
-        (nu_1 * shear, nu_2 * shear, dilatation * extend + 1),
+        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)),
+        (n1 * shear, n2 * shear, extension * root + 1),
     )
 
 
@@ -584,8 +583,8 @@ def _compliance_at(m: Any, n: Any, c: Constants) -> Any:
     ) = c.of_compliance
     m1, m2, m3 = m
     n1, n2, n3 = n
-    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
-    nu_2, nu_3 = per_zeta * n2, per_eta * n3
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    nu_1, nu_2, nu_3 = per_zeta * n1, per_zeta * n2, per_eta * n3
     dilatation = n3_dilates * n3 - m3_contracts * m3
     twist = mu_3 - chirality * dilatation
     q_star = (
@@ -604,18 +603,21 @@ def _compliance_at(m: Any, n: Any, c: Constants) -> Any:
     per_size = 1 / (y if y > LEAST else LEAST)
     a1, share = per_size * (mu_1 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
     aa1 = a1 * a1
-    a2, a3, b1, b2 = mu_2 * per_size, mu_3 * per_size, nu_1 * per_size, nu_2 * per_size
-    aa2, aa3, bb1, bb2 = a2 * a2, a3 * a3, b1 * b1, b2 * b2
-    b3, c3, c6, d1 = nu_3 * per_size, per_size * twist, dilatation * per_size, per_alpha * a1
+    a2, a3, b1 = mu_2 * per_size, mu_3 * per_size, nu_1 * per_size
+    aa2, aa3, bb1 = a2 * a2, a3 * a3, b1 * b1
+    b2, b3, c3 = nu_2 * per_size, nu_3 * per_size, per_size * twist
+    bb2 = b2 * b2
+    c6, d1, d2 = dilatation * per_size, per_alpha * a1, per_alpha * a2
     cc6 = c6 * c6
     across = aa1 + aa2 + bb1 + bb2
     coupled = aa3 + gap * cc6
     steep = -factor * share
-    d2, d3, d4, d5, d6 = per_alpha * a2, per_beta * c3, per_zeta * b1, per_zeta * b2, per_eta * c6
-    steep_1, steep_2, steep_3, steep_4 = d1 * steep, d2 * steep, d3 * steep, d4 * steep
-    steep_5 = d5 * steep
+    d3, d4, d5 = per_beta * c3, per_zeta * b1, per_zeta * b2
+    d6, steep_1, steep_2 = per_eta * c6, d1 * steep, d2 * steep
+    steep_3, steep_4, steep_5 = d3 * steep, d4 * steep, d5 * steep
     s11, s12 = per_alpha_squared * factor * (aa1 * remain + aa2 + bb1 + bb2 + coupled), d2 * steep_1
-    s13, s14, s15, s16 = d3 * steep_1, d4 * steep_1, d5 * steep_1, d6 * steep_1
+    s13, s14, s15 = d3 * steep_1, d4 * steep_1, d5 * steep_1
+    s16 = d6 * steep_1
     s22, s23 = per_alpha_squared * factor * (aa1 + aa2 * remain + bb1 + bb2 + coupled), d3 * steep_2
     s24, s25, s26 = d4 * steep_2, d5 * steep_2, d6 * steep_2
     s33 = per_beta_squared * factor * (c3 * c3 * remain + per_gap * (across + b3 * b3))

@@ -38,6 +38,7 @@ ROWS = 14  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+DOUBLE = np.dtype(np.float64)
 HEADS = {"m": (3,), "n": (3,), "u": (3,), "v": (3,), "w_star": ()}
 
 
@@ -131,8 +132,10 @@ class Constants:
     def of_strains(self) -> tuple[float, ...]:
         """What `strains` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, self.per_zeta, self.m3_contracts, self.n3_dilates,
-            self.chirality, self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load,
+            self.plain.shear_load, self.plain.slack, self.plain.turn_load, 0.5 * self.p,
+            -self.plain.per_p, self.plain.bend_soft, self.plain.shear_soft, self.plain.turn_soft,
+            self.plain.untwist, *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -164,9 +167,11 @@ class Plain:
         self.per_p = _rounded(1 / p)
         used = [v for v in vars(self).values() if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
+        self.room: dict[Any, tuple[float, float]] = {}
         for kind, tiny in TINY.items():
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
+            self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
 
@@ -499,32 +504,26 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None
 def _strains_at(m: Any, n: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
-        per_alpha, per_beta, per_zeta, m3_contracts, n3_dilates, chirality, gap, gamma, p,
-        minus_per_p, per_eta,
+        m3_extends, n3_extends, bend_load, shear_load, slack, turn_load, half_p, minus_per_p,
+        bend_soft, shear_soft, turn_soft, untwist, low, high,
     ) = c.of_strains
     m1, m2, m3 = m
     n1, n2, n3 = n
-    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
-    nu_2 = per_zeta * n2
-    dilatation = n3_dilates * n3 - m3_contracts * m3
-    twist = mu_3 - chirality * dilatation
-    q_star = (
-        gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
-        + nu_2 * nu_2
+    extension = n3_extends * n3 - m3_extends * m3
+    overload = (
+        bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+        + shear_load * (n1 * n1 + n2 * n2)
     )
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3, n1, n2, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, turn, shear = per_alpha * factor, per_beta * factor, per_zeta * factor
-    extend = per_eta * factor
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend, shear = bend_soft * root, shear_soft * root
     return (
-        (bend * mu_1, bend * mu_2, turn * twist),
-        (nu_1 * shear, nu_2 * shear, dilatation * extend + 1),
+        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)),
+        (n1 * shear, n2 * shear, extension * root + 1),
     )
 
 
@@ -564,8 +563,8 @@ def _complementary_energy_at(m: Any, n: Any, c: Constants) -> Any:
     ) = c.of_complementary_energy
     m1, m2, m3 = m
     n1, n2, n3 = n
-    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
-    nu_2 = per_zeta * n2
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    nu_1, nu_2 = per_zeta * n1, per_zeta * n2
     dilatation = n3_dilates * n3 - m3_contracts * m3
     q_star = (
         gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1

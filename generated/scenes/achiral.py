@@ -58,6 +58,8 @@ LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the 
 LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+NOUGHT = 2.0**-700  # stands for a square at rest: its inverse is a number
+DOUBLE = np.dtype(np.float64)
 HEADS = {
     "m": (3,), "n": (3,), "u": (3,), "v": (3,), "w": (), "w_star": (), "stiff": (6, 6),
     "soft": (6, 6), "limit_gap": (),
@@ -141,15 +143,17 @@ class Constants:
     def of_strains(self) -> tuple[float, ...]:
         """What `strains` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, self.per_zeta, self.per_eta, self.gamma, self.p,
-            -self.per_p,
+            self.plain.n3_extends, self.plain.bend_load, self.plain.shear_load, self.plain.slack,
+            self.plain.turn_load, 0.5 * self.p, -self.plain.per_p, self.plain.bend_soft,
+            self.plain.shear_soft, self.plain.turn_soft, *self.plain.room[DOUBLE],
         )
 
     @cached_property
     def of_loads(self) -> tuple[float, ...]:
         """What `loads` of one point takes."""
         return (
-            self.alpha, self.beta, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p,
+            self.plain.turning, self.plain.slack, self.plain.bending, self.plain.shearing,
+            0.5 * self.p, self.gamma, -self.plain.per_p, *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -172,8 +176,9 @@ class Constants:
     def of_loads_and_stiffness(self) -> tuple[float, ...]:
         """What `loads_and_stiffness` of one point takes."""
         return (
-            self.alpha, self.beta, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p,
-            self.alpha**2, self.beta**2, self.zeta**2, self.eta**2,
+            self.plain.turning, self.plain.slack, self.plain.bending, self.plain.shearing,
+            0.5 * self.p, self.gamma, -self.plain.per_p, self.plain.stretching,
+            *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -188,17 +193,19 @@ class Constants:
     def of_strains_and_gap(self) -> tuple[float, ...]:
         """What `strains_and_gap` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, self.per_zeta, self.per_eta, self.gamma, self.p,
-            -self.per_p,
+            self.plain.n3_extends, self.plain.bend_load, self.plain.shear_load, self.plain.slack,
+            self.plain.turn_load, 0.5 * self.p, -self.plain.per_p, self.plain.bend_soft,
+            self.plain.shear_soft, self.plain.turn_soft, *self.plain.room[DOUBLE],
         )
 
     @cached_property
     def of_stiffness_at_loads(self) -> tuple[float, ...]:
         """What `stiffness_at_loads` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, self.per_zeta, self.per_eta, 0.5 * self.p,
-            self.per_gamma, self.gamma, self.per_p, self.alpha, self.beta, self.zeta, self.eta,
-            self.alpha**2, self.beta**2, self.zeta**2, self.eta**2,
+            self.plain.n3_extends, self.plain.bend_load, self.plain.shear_load, self.plain.slack,
+            self.plain.turn_load, 0.5 * self.p, self.gamma, self.plain.per_p, self.plain.per_gamma,
+            self.plain.bending, self.plain.turning, self.plain.shearing, self.plain.stretching,
+            *self.plain.room[DOUBLE],
         )
 
 
@@ -226,9 +233,11 @@ class Plain:
         used = [v for v in (c.gamma, *vars(self).values()) if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
         self.within_q: dict[Any, tuple[float, float]] = {}
+        self.room: dict[Any, tuple[float, float]] = {}
         for kind, tiny in TINY.items():
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
+            self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
@@ -636,23 +645,28 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None
 
 def _strains_at(m: Any, n: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
-    per_alpha, per_beta, per_zeta, per_eta, gamma, p, minus_per_p = c.of_strains
+    (
+        n3_extends, bend_load, shear_load, slack, turn_load, half_p, minus_per_p, bend_soft,
+        shear_soft, turn_soft, low, high,
+    ) = c.of_strains
     m1, m2, m3 = m
     n1, n2, n3 = n
-    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
-    nu_2, nu_3 = per_zeta * n2, per_eta * n3
-    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1 + nu_2 * nu_2 + nu_3 * nu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+    extension = n3_extends * n3
+    overload = (
+        bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+        + shear_load * (n1 * n1 + n2 * n2)
+    )
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3, n1, n2, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, turn, shear = per_alpha * factor, per_beta * factor, per_zeta * factor
-    extend = per_eta * factor
-    return (bend * mu_1, bend * mu_2, mu_3 * turn), (nu_1 * shear, nu_2 * shear, extend * nu_3 + 1)
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend, shear = bend_soft * root, shear_soft * root
+    return (
+        (bend * m1, bend * m2, turn_soft * m3 * root),
+        (n1 * shear, n2 * shear, extension * root + 1),
+    )
 
 
 def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -738,27 +752,24 @@ def _loads(strains: Rows, c: Constants, work: Array, m: Array, n: Array) -> None
 
 def _loads_at(u: Any, v: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
-    alpha, beta, zeta, eta, minus_half_p, gamma, per_p = c.of_loads
+    turning, slack, bending, shearing, half_p, gamma, minus_per_p, low, high = c.of_loads
     u1, u2, u3 = u
     v1, v2, v3 = v
     stretch = v3 - 1
-    kappa_1, kappa_2, kappa_3, lam_1 = alpha * u1, alpha * u2, beta * u3, zeta * v1
-    lam_2, lam_3 = zeta * v2, eta * stretch
+    torque, slack_pull = turning * u3, slack * stretch
     q = (
-        kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3 + lam_1 * lam_1 + lam_2 * lam_2
-        + lam_3 * lam_3
+        bending * (u1 * u1 + u2 * u2) + shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
+        + turning * u3 * u3
     )
-    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, v1, v2, stretch))):
+    if type(q) is not float or (
+        not low < q < 1 and (q or low > high or any((u1, u2, u3, v1, v2, stretch)))
+    ):
         raise _Extreme
-    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
-    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
-    depth = log1p(growth)
-    factor = gamma * exp(per_p * depth)
-    bend, turn, shear, extend = alpha * factor, beta * factor, zeta * factor, eta * factor
-    return (
-        (bend * kappa_1, bend * kappa_2, kappa_3 * turn),
-        (lam_1 * shear, lam_2 * shear, extend * lam_3),
-    )
+    q = q or NOUGHT
+    left = -expm1(half_p * log(q))
+    hard = gamma * left**minus_per_p
+    bend, shear = bending * hard, shearing * hard
+    return (bend * u1, bend * u2, hard * torque), (shear * v1, shear * v2, hard * slack_pull)
 
 
 def loads(u: Given, v: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -796,8 +807,8 @@ def _stored_energy_at(u: Any, v: Any, c: Constants) -> Any:
     u1, u2, u3 = u
     v1, v2, v3 = v
     stretch = v3 - 1
-    kappa_1, kappa_2, kappa_3, lam_1 = alpha * u1, alpha * u2, beta * u3, zeta * v1
-    lam_2, lam_3 = zeta * v2, eta * stretch
+    kappa_1, kappa_2, kappa_3 = alpha * u1, alpha * u2, beta * u3
+    lam_1, lam_2, lam_3 = zeta * v1, zeta * v2, eta * stretch
     q = (
         kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3 + lam_1 * lam_1 + lam_2 * lam_2
         + lam_3 * lam_3
@@ -846,8 +857,8 @@ def _complementary_energy_at(m: Any, n: Any, c: Constants) -> Any:
     per_alpha, per_beta, per_zeta, per_eta, gamma, p, minus_per_p = c.of_complementary_energy
     m1, m2, m3 = m
     n1, n2, n3 = n
-    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
-    nu_2, nu_3 = per_zeta * n2, per_eta * n3
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    nu_1, nu_2, nu_3 = per_zeta * n1, per_zeta * n2, per_eta * n3
     q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1 + nu_2 * nu_2 + nu_3 * nu_3
     if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
         raise _Extreme
@@ -1113,42 +1124,39 @@ def _loads_and_stiffness(
 def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
     """`loads_and_stiffness` of floats, where nothing is extreme."""
     (
-        alpha, beta, zeta, eta, minus_half_p, gamma, per_p, alpha_squared, beta_squared,
-        zeta_squared, eta_squared,
+        turning, slack, bending, shearing, half_p, gamma, minus_per_p, stretching, low, high,
     ) = c.of_loads_and_stiffness
     u1, u2, u3 = u
     v1, v2, v3 = v
     stretch = v3 - 1
-    kappa_1, kappa_2, kappa_3, lam_1 = alpha * u1, alpha * u2, beta * u3, zeta * v1
-    lam_2, lam_3 = zeta * v2, eta * stretch
+    r3, slack_pull, r1 = turning * u3, slack * stretch, bending * u1
+    r2, r4, r5 = bending * u2, shearing * v1, shearing * v2
+    r6 = slack_pull
     q = (
-        kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3 + lam_1 * lam_1 + lam_2 * lam_2
-        + lam_3 * lam_3
+        bending * (u1 * u1 + u2 * u2) + shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
+        + turning * u3 * u3
     )
-    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, v1, v2, stretch))):
+    if type(q) is not float or (
+        not low < q < 1 and (q or low > high or any((u1, u2, u3, v1, v2, stretch)))
+    ):
         raise _Extreme
-    x = sqrt(q)
-    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
-    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
-    depth = log1p(growth)
-    factor = gamma * exp(per_p * depth)
-    steep, bend, turn, shear = factor * growth, alpha * factor, beta * factor, zeta * factor
-    per_size = 1 / (x if x > LEAST else LEAST)
-    bend_per_size, turn_per_size = alpha * per_size, beta * per_size
-    shear_per_size, extend_per_size, extend = zeta * per_size, eta * per_size, eta * factor
-    t1, t2, t3 = bend_per_size * kappa_1, bend_per_size * kappa_2, kappa_3 * turn_per_size
-    t4, t5, t6 = lam_1 * shear_per_size, lam_2 * shear_per_size, extend_per_size * lam_3
-    steep_1, steep_2, steep_3, steep_4 = steep * t1, steep * t2, steep * t3, steep * t4
-    steep_5, steep_6 = steep * t5, steep * t6
-    k11, k12, k13 = alpha_squared * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
-    k14, k15, k16 = steep_1 * t4, steep_1 * t5, steep_1 * t6
-    k22, k23, k24 = alpha_squared * factor + steep_2 * t2, steep_2 * t3, steep_2 * t4
-    k25, k26 = steep_2 * t5, steep_2 * t6
-    k33, k34, k35 = beta_squared * factor + steep_3 * t3, steep_3 * t4, steep_3 * t5
-    k36 = steep_3 * t6
-    k44, k45, k46 = zeta_squared * factor + steep_4 * t4, steep_4 * t5, steep_4 * t6
-    k55, k56 = zeta_squared * factor + steep_5 * t5, steep_5 * t6
-    k66 = eta_squared * factor + steep_6 * t6
+    q = q or NOUGHT
+    left = -expm1(half_p * log(q))
+    growth = 1 / left - 1
+    hard = gamma * left**minus_per_p
+    steep = growth * hard / q
+    bend, shear, steep_1 = bending * hard, shearing * hard, r1 * steep
+    steep_2, steep_3, steep_4 = r2 * steep, r3 * steep, r4 * steep
+    steep_5, steep_6 = r5 * steep, r6 * steep
+    k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, r3 * steep_1
+    k14, k15, k16 = r4 * steep_1, r5 * steep_1, r6 * steep_1
+    k22, k23, k24 = bend + r2 * steep_2, r3 * steep_2, r4 * steep_2
+    k25, k26 = r5 * steep_2, r6 * steep_2
+    k33, k34, k35 = turning * hard + r3 * steep_3, r4 * steep_3, r5 * steep_3
+    k36 = r6 * steep_3
+    k44, k45, k46 = r4 * steep_4 + shear, r5 * steep_4, r6 * steep_4
+    k55, k56 = r5 * steep_5 + shear, r6 * steep_5
+    k66 = stretching * hard + r6 * steep_6
     stiff = (
         (k11, k12, k13, k14, k15, k16),
         (k12, k22, k23, k24, k25, k26),
@@ -1157,11 +1165,7 @@ def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
         (k15, k25, k35, k45, k55, k56),
         (k16, k26, k36, k46, k56, k66),
     )
-    return (
-        (bend * kappa_1, bend * kappa_2, kappa_3 * turn),
-        (lam_1 * shear, lam_2 * shear, extend * lam_3),
-        stiff,
-    )
+    return (bend * u1, bend * u2, hard * r3), (shear * v1, shear * v2, hard * r6), stiff
 
 
 def loads_and_stiffness(
@@ -1278,8 +1282,8 @@ def _compliance_at(m: Any, n: Any, c: Constants) -> Any:
     ) = c.of_compliance
     m1, m2, m3 = m
     n1, n2, n3 = n
-    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
-    nu_2, nu_3 = per_zeta * n2, per_eta * n3
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    nu_1, nu_2, nu_3 = per_zeta * n1, per_zeta * n2, per_eta * n3
     q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1 + nu_2 * nu_2 + nu_3 * nu_3
     if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
         raise _Extreme
@@ -1293,17 +1297,20 @@ def _compliance_at(m: Any, n: Any, c: Constants) -> Any:
     per_size = 1 / (y if y > LEAST else LEAST)
     a1, share = per_size * (mu_1 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
     aa1 = a1 * a1
-    a2, a3, b1, b2 = mu_2 * per_size, mu_3 * per_size, nu_1 * per_size, nu_2 * per_size
-    aa2, aa3, bb1, bb2 = a2 * a2, a3 * a3, b1 * b1, b2 * b2
-    b3, d1, d2, d3 = nu_3 * per_size, per_alpha * a1, per_alpha * a2, per_beta * a3
-    bb3 = b3 * b3
+    a2, a3, b1 = mu_2 * per_size, mu_3 * per_size, nu_1 * per_size
+    aa2, aa3, bb1 = a2 * a2, a3 * a3, b1 * b1
+    b2, b3, d1 = nu_2 * per_size, nu_3 * per_size, per_alpha * a1
+    bb2, bb3 = b2 * b2, b3 * b3
     across = aa1 + aa2 + bb1 + bb2
     coupled = aa3 + bb3
     steep = -factor * share
-    d4, d5, d6, steep_1 = per_zeta * b1, per_zeta * b2, per_eta * b3, d1 * steep
-    steep_2, steep_3, steep_4, steep_5 = d2 * steep, d3 * steep, d4 * steep, d5 * steep
+    d2, d3, d4 = per_alpha * a2, per_beta * a3, per_zeta * b1
+    d5, d6, steep_1 = per_zeta * b2, per_eta * b3, d1 * steep
+    steep_2, steep_3, steep_4 = d2 * steep, d3 * steep, d4 * steep
+    steep_5 = d5 * steep
     s11, s12 = per_alpha_squared * factor * (aa1 * remain + aa2 + bb1 + bb2 + coupled), d2 * steep_1
-    s13, s14, s15, s16 = d3 * steep_1, d4 * steep_1, d5 * steep_1, d6 * steep_1
+    s13, s14, s15 = d3 * steep_1, d4 * steep_1, d5 * steep_1
+    s16 = d6 * steep_1
     s22, s23 = per_alpha_squared * factor * (aa1 + aa2 * remain + bb1 + bb2 + coupled), d3 * steep_2
     s24, s25, s26 = d4 * steep_2, d5 * steep_2, d6 * steep_2
     s33, s34 = per_beta_squared * factor * (aa3 * remain + across + bb3), d4 * steep_3
@@ -1413,27 +1420,28 @@ def _strains_and_gap(
 
 def _strains_and_gap_at(m: Any, n: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
-    per_alpha, per_beta, per_zeta, per_eta, gamma, p, minus_per_p = c.of_strains_and_gap
+    (
+        n3_extends, bend_load, shear_load, slack, turn_load, half_p, minus_per_p, bend_soft,
+        shear_soft, turn_soft, low, high,
+    ) = c.of_strains_and_gap
     m1, m2, m3 = m
     n1, n2, n3 = n
-    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
-    nu_2, nu_3 = per_zeta * n2, per_eta * n3
-    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1 + nu_2 * nu_2 + nu_3 * nu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+    extension = n3_extends * n3
+    overload = (
+        bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+        + shear_load * (n1 * n1 + n2 * n2)
+    )
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3, n1, n2, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, turn, shear = per_alpha * factor, per_beta * factor, per_zeta * factor
-    extend = per_eta * factor
-    remain = (1.0 if y <= gamma else power) / (power + 1)
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend, shear = bend_soft * root, shear_soft * root
     return (
-        (bend * mu_1, bend * mu_2, mu_3 * turn),
-        (nu_1 * shear, nu_2 * shear, extend * nu_3 + 1),
-        remain,
+        (bend * m1, bend * m2, turn_soft * m3 * root),
+        (n1 * shear, n2 * shear, extension * root + 1),
+        1 / (excess + 1),
     )
 
 
@@ -1549,38 +1557,37 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
 def _stiffness_at_loads_at(m: Any, n: Any, c: Constants) -> Any:
     """`stiffness_at_loads` of floats, where nothing is extreme."""
     (
-        per_alpha, per_beta, per_zeta, per_eta, half_p, per_gamma, gamma, per_p, alpha, beta, zeta,
-        eta, alpha_squared, beta_squared, zeta_squared, eta_squared,
+        n3_extends, bend_load, shear_load, slack, turn_load, half_p, gamma, per_p, per_gamma,
+        bending, turning, shearing, stretching, low, high,
     ) = c.of_stiffness_at_loads
     m1, m2, m3 = m
     n1, n2, n3 = n
-    mu_1, mu_2, mu_3, nu_1 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_zeta * n1
-    nu_2, nu_3 = per_zeta * n2, per_eta * n3
-    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1 + nu_2 * nu_2 + nu_3 * nu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n1, n2, n3))):
+    extension = n3_extends * n3
+    overload = (
+        bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+        + shear_load * (n1 * n1 + n2 * n2)
+    )
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3, n1, n2, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    raw_1 = per_gamma * y
-    rise = (raw_1 if raw_1 > LEAST else LEAST)**half_p
-    raw_2 = 1 / (rise if rise > LEAST else LEAST)
-    half = raw_2 if raw_2 < rise else rise
-    power = half * half
-    factor = exp(per_p * log1p(power)) * (y if y > gamma else gamma)
-    rise_per_size = rise / (y if y > LEAST else LEAST)
-    bend_rise, turn_rise = alpha * rise_per_size, beta * rise_per_size
-    shear_rise, extend_rise, h1 = zeta * rise_per_size, eta * rise_per_size, bend_rise * mu_1
-    h2, h3, h4, h5 = bend_rise * mu_2, mu_3 * turn_rise, nu_1 * shear_rise, nu_2 * shear_rise
-    h6, factor_1, factor_2, factor_3 = extend_rise * nu_3, factor * h1, factor * h2, factor * h3
-    factor_4, factor_5, factor_6 = factor * h4, factor * h5, factor * h6
-    k11, k12, k13 = alpha_squared * factor + factor_1 * h1, factor_1 * h2, factor_1 * h3
-    k14, k15, k16 = factor_1 * h4, factor_1 * h5, factor_1 * h6
-    k22, k23, k24 = alpha_squared * factor + factor_2 * h2, factor_2 * h3, factor_2 * h4
-    k25, k26 = factor_2 * h5, factor_2 * h6
-    k33, k34, k35 = beta_squared * factor + factor_3 * h3, factor_3 * h4, factor_3 * h5
-    k36 = factor_3 * h6
-    k44, k45, k46 = zeta_squared * factor + factor_4 * h4, factor_4 * h5, factor_4 * h6
-    k55, k56 = zeta_squared * factor + factor_5 * h5, factor_5 * h6
-    k66 = eta_squared * factor + factor_6 * h6
+    overload = overload or NOUGHT
+    excess = overload**half_p
+    hard = gamma * (excess + 1)**per_p
+    lift = excess * hard / overload
+    h1, h2, h3 = per_gamma * m1, per_gamma * m2, per_gamma * m3
+    h4, h5, h6 = per_gamma * n1, per_gamma * n2, per_gamma * n3
+    lift_1, lift_2, lift_3 = h1 * lift, h2 * lift, h3 * lift
+    lift_4, lift_5, lift_6 = h4 * lift, h5 * lift, h6 * lift
+    k11, k12, k13 = bending * hard + h1 * lift_1, h2 * lift_1, h3 * lift_1
+    k14, k15, k16 = h4 * lift_1, h5 * lift_1, h6 * lift_1
+    k22, k23, k24 = bending * hard + h2 * lift_2, h3 * lift_2, h4 * lift_2
+    k25, k26 = h5 * lift_2, h6 * lift_2
+    k33, k34, k35 = h3 * lift_3 + turning * hard, h4 * lift_3, h5 * lift_3
+    k36 = h6 * lift_3
+    k44, k45, k46 = h4 * lift_4 + shearing * hard, h5 * lift_4, h6 * lift_4
+    k55, k56 = h5 * lift_5 + shearing * hard, h6 * lift_5
+    k66 = h6 * lift_6 + stretching * hard
     return (
         (k11, k12, k13, k14, k15, k16),
         (k12, k22, k23, k24, k25, k26),

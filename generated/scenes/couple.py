@@ -47,6 +47,7 @@ ROWS = 15  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+DOUBLE = np.dtype(np.float64)
 HEADS = {"m": (3,), "u": (3,), "v3": (), "w_star": (), "soft": (3, 3), "limit_gap": ()}
 
 
@@ -135,8 +136,9 @@ class Constants:
     def of_strains(self) -> tuple[float, ...]:
         """What `strains` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, -self.m3_contracts, self.chirality, self.gap, self.gamma,
-            self.p, -self.per_p, self.per_eta,
+            -self.plain.m3_extends, self.plain.bend_load, self.plain.slack, self.plain.turn_load,
+            0.5 * self.p, -self.plain.per_p, self.plain.bend_soft, self.plain.turn_soft,
+            self.plain.untwist, *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -159,8 +161,9 @@ class Constants:
     def of_strains_and_gap(self) -> tuple[float, ...]:
         """What `strains_and_gap` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, -self.m3_contracts, self.chirality, self.gap, self.gamma,
-            self.p, -self.per_p, self.per_eta,
+            -self.plain.m3_extends, self.plain.bend_load, self.plain.slack, self.plain.turn_load,
+            0.5 * self.p, -self.plain.per_p, self.plain.bend_soft, self.plain.turn_soft,
+            self.plain.untwist, *self.plain.room[DOUBLE],
         )
 
 
@@ -181,9 +184,11 @@ class Plain:
         self.per_p = _rounded(1 / p)
         used = [v for v in vars(self).values() if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
+        self.room: dict[Any, tuple[float, float]] = {}
         for kind, tiny in TINY.items():
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
+            self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
 
@@ -500,23 +505,22 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> Non
 def _strains_at(m: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
-        per_alpha, per_beta, minus_m3_contracts, chirality, gap, gamma, p, minus_per_p, per_eta,
+        minus_m3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft, turn_soft,
+        untwist, low, high,
     ) = c.of_strains
     m1, m2, m3 = m
-    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
-    dilatation = minus_m3_contracts * m3
-    twist = mu_3 - chirality * dilatation
-    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+    extension = minus_m3_extends * m3
+    overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, turn, extend = per_alpha * factor, per_beta * factor, per_eta * factor
-    return (bend * mu_1, bend * mu_2, turn * twist), dilatation * extend + 1
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend = bend_soft * root
+    return (
+        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)), extension * root + 1
+    )
 
 
 def strains(m: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -664,13 +668,13 @@ def _compliance_at(m: Any, c: Constants) -> Any:
     per_size = 1 / (y if y > LEAST else LEAST)
     a1, share = per_size * (mu_1 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
     aa1 = a1 * a1
-    a2, a3, c3, c6 = mu_2 * per_size, mu_3 * per_size, per_size * twist, dilatation * per_size
+    a2, a3, c3 = mu_2 * per_size, mu_3 * per_size, per_size * twist
     aa2 = a2 * a2
+    c6, d1, d2 = dilatation * per_size, per_alpha * a1, per_alpha * a2
     across = aa1 + aa2
     coupled = a3 * a3 + gap * c6 * c6
     steep = -factor * share
-    d1, d2, d3 = per_alpha * a1, per_alpha * a2, per_beta * c3
-    steep_1, steep_2 = d1 * steep, d2 * steep
+    d3, steep_1, steep_2 = per_beta * c3, d1 * steep, d2 * steep
     s11, s12 = per_alpha_squared * factor * (aa1 * remain + aa2 + coupled), d2 * steep_1
     s13 = d3 * steep_1
     s22, s23 = per_alpha_squared * factor * (aa1 + aa2 * remain + coupled), d3 * steep_2
@@ -765,24 +769,24 @@ def _strains_and_gap(
 def _strains_and_gap_at(m: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
     (
-        per_alpha, per_beta, minus_m3_contracts, chirality, gap, gamma, p, minus_per_p, per_eta,
+        minus_m3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft, turn_soft,
+        untwist, low, high,
     ) = c.of_strains_and_gap
     m1, m2, m3 = m
-    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
-    dilatation = minus_m3_contracts * m3
-    twist = mu_3 - chirality * dilatation
-    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+    extension = minus_m3_extends * m3
+    overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, turn, extend = per_alpha * factor, per_beta * factor, per_eta * factor
-    remain = (1.0 if y <= gamma else power) / (power + 1)
-    return (bend * mu_1, bend * mu_2, turn * twist), dilatation * extend + 1, remain
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend = bend_soft * root
+    return (
+        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)),
+        extension * root + 1,
+        1 / (excess + 1),
+    )
 
 
 def strains_and_gap(m: Given, constants: Constants, out: Triple | None = None) -> Triple:

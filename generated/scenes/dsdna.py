@@ -56,6 +56,8 @@ LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the 
 LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+NOUGHT = 2.0**-700  # stands for a square at rest: its inverse is a number
+DOUBLE = np.dtype(np.float64)
 HEADS = {
     "m": (3,), "n3": (), "u": (3,), "v3": (), "w": (), "w_star": (), "stiff": (4, 4),
     "soft": (4, 4), "limit_gap": (),
@@ -178,16 +180,18 @@ class Constants:
     def of_strains(self) -> tuple[float, ...]:
         """What `strains` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, self.m3_contracts, self.n3_dilates, self.chirality,
-            self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load, self.plain.slack,
+            self.plain.turn_load, 0.5 * self.p, -self.plain.per_p, self.plain.bend_soft,
+            self.plain.turn_soft, self.plain.untwist, *self.plain.room[DOUBLE],
         )
 
     @cached_property
     def of_loads(self) -> tuple[float, ...]:
         """What `loads` of one point takes."""
         return (
-            self.alpha, self.beta, self.eta, self.chirality, self.gap, -0.5 * self.p, self.gamma,
-            self.per_p,
+            self.iota, self.plain.turning, self.plain.slack, self.plain.bending,
+            self.plain.per_turning, 0.5 * self.p, self.gamma, -self.plain.per_p, self.plain.untwist,
+            *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -210,8 +214,9 @@ class Constants:
     def of_loads_and_stiffness(self) -> tuple[float, ...]:
         """What `loads_and_stiffness` of one point takes."""
         return (
-            self.alpha, self.beta, self.eta, self.chirality, self.gap, -0.5 * self.p, self.gamma,
-            self.per_p, self.alpha**2, self.beta**2, self.iota, self.eta**2,
+            self.iota, self.plain.turning, self.plain.slack, self.plain.bending, self.plain.untwist,
+            self.plain.per_turning, 0.5 * self.p, self.gamma, -self.plain.per_p,
+            self.plain.stretching, *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -227,17 +232,19 @@ class Constants:
     def of_strains_and_gap(self) -> tuple[float, ...]:
         """What `strains_and_gap` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, self.m3_contracts, self.n3_dilates, self.chirality,
-            self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
+            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load, self.plain.slack,
+            self.plain.turn_load, 0.5 * self.p, -self.plain.per_p, self.plain.bend_soft,
+            self.plain.turn_soft, self.plain.untwist, *self.plain.room[DOUBLE],
         )
 
     @cached_property
     def of_stiffness_at_loads(self) -> tuple[float, ...]:
         """What `stiffness_at_loads` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, self.per_eta, self.m3_contracts, self.n3_dilates,
-            self.gap, 0.5 * self.p, self.per_gamma, self.gamma, self.per_p, self.alpha, self.beta,
-            self.eta, self.alpha**2, self.beta**2, self.iota, self.eta**2,
+            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load, self.plain.slack,
+            self.plain.turn_load, 0.5 * self.p, self.gamma, self.plain.per_p, self.plain.per_gamma,
+            self.plain.bending, self.plain.turning, self.iota, self.plain.stretching,
+            *self.plain.room[DOUBLE],
         )
 
 
@@ -265,9 +272,11 @@ class Plain:
         used = [v for v in (c.gamma, c.iota, *vars(self).values()) if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
         self.within_q: dict[Any, tuple[float, float]] = {}
+        self.room: dict[Any, tuple[float, float]] = {}
         for kind, tiny in TINY.items():
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
+            self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
@@ -670,24 +679,22 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> Non
 def _strains_at(m: Any, n3: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
-        per_alpha, per_beta, m3_contracts, n3_dilates, chirality, gap, gamma, p, minus_per_p,
-        per_eta,
+        m3_extends, n3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft,
+        turn_soft, untwist, low, high,
     ) = c.of_strains
     m1, m2, m3 = m
-    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
-    dilatation = n3_dilates * n3 - m3_contracts * m3
-    twist = mu_3 - chirality * dilatation
-    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n3))):
+    extension = n3_extends * n3 - m3_extends * m3
+    overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, turn, extend = per_alpha * factor, per_beta * factor, per_eta * factor
-    return (bend * mu_1, bend * mu_2, turn * twist), dilatation * extend + 1
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend = bend_soft * root
+    return (
+        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)), extension * root + 1
+    )
 
 
 def strains(m: Given, n3: Given | float, constants: Constants, out: Pair | None = None) -> Pair:
@@ -766,21 +773,23 @@ def _loads(strains: Rows, c: Constants, work: Array, m: Array, n3: Array) -> Non
 
 def _loads_at(u: Any, v3: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
-    alpha, beta, eta, chirality, gap, minus_half_p, gamma, per_p = c.of_loads
+    (
+        iota, turning, slack, bending, per_turning, half_p, gamma, minus_per_p, untwist, low, high,
+    ) = c.of_loads
     u1, u2, u3 = u
     stretch = v3 - 1
-    kappa_1, kappa_2, kappa_3, lam_3 = alpha * u1, alpha * u2, beta * u3, eta * stretch
-    torque = chirality * lam_3 + kappa_3
-    tension = chirality * torque + gap * lam_3
-    q = gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + torque * torque
-    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, stretch))):
+    torque = iota * stretch + turning * u3
+    slack_pull = slack * stretch
+    q = bending * (u1 * u1 + u2 * u2) + per_turning * torque * torque + slack_pull * stretch
+    if type(q) is not float or (
+        not low < q < 1 and (q or low > high or any((u1, u2, u3, stretch)))
+    ):
         raise _Extreme
-    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
-    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
-    depth = log1p(growth)
-    factor = gamma * exp(per_p * depth)
-    bend, turn, extend = alpha * factor, beta * factor, eta * factor
-    return (bend * kappa_1, bend * kappa_2, torque * turn), extend * tension
+    q = q or NOUGHT
+    left = -expm1(half_p * log(q))
+    hard = gamma * left**minus_per_p
+    bend = bending * hard
+    return (bend * u1, bend * u2, hard * torque), hard * (slack_pull + untwist * torque)
 
 
 def loads(u: Given, v3: Given | float, constants: Constants, out: Pair | None = None) -> Pair:
@@ -817,7 +826,8 @@ def _stored_energy_at(u: Any, v3: Any, c: Constants) -> Any:
     alpha, beta, eta, chirality, gap, minus_half_p, gamma, per_p, p = c.of_stored_energy
     u1, u2, u3 = u
     stretch = v3 - 1
-    kappa_1, kappa_2, kappa_3, lam_3 = alpha * u1, alpha * u2, beta * u3, eta * stretch
+    kappa_1, kappa_2, kappa_3 = alpha * u1, alpha * u2, beta * u3
+    lam_3 = eta * stretch
     torque = chirality * lam_3 + kappa_3
     q = gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + torque * torque
     if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, stretch))):
@@ -1107,40 +1117,38 @@ def _loads_and_stiffness(
 def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
     """`loads_and_stiffness` of floats, where nothing is extreme."""
     (
-        alpha, beta, eta, chirality, gap, minus_half_p, gamma, per_p, alpha_squared, beta_squared,
-        iota, eta_squared,
+        iota, turning, slack, bending, untwist, per_turning, half_p, gamma, minus_per_p, stretching,
+        low, high,
     ) = c.of_loads_and_stiffness
     u1, u2, u3 = u
     stretch = v3 - 1
-    kappa_1, kappa_2, kappa_3, lam_3 = alpha * u1, alpha * u2, beta * u3, eta * stretch
-    torque = chirality * lam_3 + kappa_3
-    tension = chirality * torque + gap * lam_3
-    q = gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + torque * torque
-    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3, stretch))):
+    r3 = iota * stretch + turning * u3
+    slack_pull, r1, r2 = slack * stretch, bending * u1, bending * u2
+    r6 = untwist * r3 + slack_pull
+    q = bending * (u1 * u1 + u2 * u2) + per_turning * r3 * r3 + slack_pull * stretch
+    if type(q) is not float or (
+        not low < q < 1 and (q or low > high or any((u1, u2, u3, stretch)))
+    ):
         raise _Extreme
-    x = sqrt(q)
-    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
-    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
-    depth = log1p(growth)
-    factor = gamma * exp(per_p * depth)
-    steep, bend, turn, extend = factor * growth, alpha * factor, beta * factor, eta * factor
-    per_size = 1 / (x if x > LEAST else LEAST)
-    bend_per_size, turn_per_size = alpha * per_size, beta * per_size
-    extend_per_size, t1, t2 = eta * per_size, bend_per_size * kappa_1, bend_per_size * kappa_2
-    t3, t6, steep_1 = torque * turn_per_size, extend_per_size * tension, steep * t1
-    steep_2, steep_3, steep_4 = steep * t2, steep * t3, steep * t6
-    k11, k12, k13 = alpha_squared * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
-    k14 = steep_1 * t6
-    k22, k23, k24 = alpha_squared * factor + steep_2 * t2, steep_2 * t3, steep_2 * t6
-    k33, k34 = beta_squared * factor + steep_3 * t3, iota * factor + steep_3 * t6
-    k44 = eta_squared * factor + steep_4 * t6
+    q = q or NOUGHT
+    left = -expm1(half_p * log(q))
+    growth = 1 / left - 1
+    hard = gamma * left**minus_per_p
+    steep = growth * hard / q
+    bend, steep_1, steep_2 = bending * hard, r1 * steep, r2 * steep
+    steep_3, steep_4 = r3 * steep, r6 * steep
+    k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, r3 * steep_1
+    k14 = r6 * steep_1
+    k22, k23, k24 = bend + r2 * steep_2, r3 * steep_2, r6 * steep_2
+    k33, k34 = turning * hard + r3 * steep_3, iota * hard + r6 * steep_3
+    k44 = stretching * hard + r6 * steep_4
     stiff = (
         (k11, k12, k13, k14),
         (k12, k22, k23, k24),
         (k13, k23, k33, k34),
         (k14, k24, k34, k44),
     )
-    return (bend * kappa_1, bend * kappa_2, torque * turn), extend * tension, stiff
+    return (bend * u1, bend * u2, hard * r3), hard * r6, stiff
 
 
 def loads_and_stiffness(
@@ -1249,7 +1257,8 @@ def _compliance_at(m: Any, n3: Any, c: Constants) -> Any:
         per_eta_squared,
     ) = c.of_compliance
     m1, m2, m3 = m
-    mu_1, mu_2, mu_3, nu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_eta * n3
+    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
+    nu_3 = per_eta * n3
     dilatation = n3_dilates * n3 - m3_contracts * m3
     twist = mu_3 - chirality * dilatation
     q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
@@ -1265,14 +1274,15 @@ def _compliance_at(m: Any, n3: Any, c: Constants) -> Any:
     per_size = 1 / (y if y > LEAST else LEAST)
     a1, share = per_size * (mu_1 + LEAST), (power if y <= gamma else 1.0) / (power + 1)
     aa1 = a1 * a1
-    a2, a3, b3, c3 = mu_2 * per_size, mu_3 * per_size, nu_3 * per_size, per_size * twist
+    a2, a3, b3 = mu_2 * per_size, mu_3 * per_size, nu_3 * per_size
     aa2, aa3 = a2 * a2, a3 * a3
-    c6, d1, d2, d3 = dilatation * per_size, per_alpha * a1, per_alpha * a2, per_beta * c3
+    c3, c6, d1 = per_size * twist, dilatation * per_size, per_alpha * a1
     cc6 = c6 * c6
     across = aa1 + aa2
     coupled = aa3 + gap * cc6
     steep = -factor * share
-    d6, steep_1, steep_2 = per_eta * c6, d1 * steep, d2 * steep
+    d2, d3, d6 = per_alpha * a2, per_beta * c3, per_eta * c6
+    steep_1, steep_2 = d1 * steep, d2 * steep
     s11, s12 = per_alpha_squared * factor * (aa1 * remain + aa2 + coupled), d2 * steep_1
     s13, s14 = d3 * steep_1, d6 * steep_1
     s22, s23 = per_alpha_squared * factor * (aa1 + aa2 * remain + coupled), d3 * steep_2
@@ -1374,25 +1384,24 @@ def _strains_and_gap(
 def _strains_and_gap_at(m: Any, n3: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
     (
-        per_alpha, per_beta, m3_contracts, n3_dilates, chirality, gap, gamma, p, minus_per_p,
-        per_eta,
+        m3_extends, n3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft,
+        turn_soft, untwist, low, high,
     ) = c.of_strains_and_gap
     m1, m2, m3 = m
-    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
-    dilatation = n3_dilates * n3 - m3_contracts * m3
-    twist = mu_3 - chirality * dilatation
-    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n3))):
+    extension = n3_extends * n3 - m3_extends * m3
+    overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, turn, extend = per_alpha * factor, per_beta * factor, per_eta * factor
-    remain = (1.0 if y <= gamma else power) / (power + 1)
-    return (bend * mu_1, bend * mu_2, turn * twist), dilatation * extend + 1, remain
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend = bend_soft * root
+    return (
+        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)),
+        extension * root + 1,
+        1 / (excess + 1),
+    )
 
 
 def strains_and_gap(
@@ -1497,32 +1506,28 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
 def _stiffness_at_loads_at(m: Any, n3: Any, c: Constants) -> Any:
     """`stiffness_at_loads` of floats, where nothing is extreme."""
     (
-        per_alpha, per_beta, per_eta, m3_contracts, n3_dilates, gap, half_p, per_gamma, gamma,
-        per_p, alpha, beta, eta, alpha_squared, beta_squared, iota, eta_squared,
+        m3_extends, n3_extends, bend_load, slack, turn_load, half_p, gamma, per_p, per_gamma,
+        bending, turning, iota, stretching, low, high,
     ) = c.of_stiffness_at_loads
     m1, m2, m3 = m
-    mu_1, mu_2, mu_3, nu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3, per_eta * n3
-    dilatation = n3_dilates * n3 - m3_contracts * m3
-    q_star = gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3, n3))):
+    extension = n3_extends * n3 - m3_extends * m3
+    overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    raw_1 = per_gamma * y
-    rise = (raw_1 if raw_1 > LEAST else LEAST)**half_p
-    raw_2 = 1 / (rise if rise > LEAST else LEAST)
-    half = raw_2 if raw_2 < rise else rise
-    power = half * half
-    factor = exp(per_p * log1p(power)) * (y if y > gamma else gamma)
-    rise_per_size = rise / (y if y > LEAST else LEAST)
-    bend_rise, turn_rise = alpha * rise_per_size, beta * rise_per_size
-    extend_rise, h1, h2 = eta * rise_per_size, bend_rise * mu_1, bend_rise * mu_2
-    h3, h6, factor_1, factor_2 = mu_3 * turn_rise, extend_rise * nu_3, factor * h1, factor * h2
-    factor_3, factor_4 = factor * h3, factor * h6
-    k11, k12, k13 = alpha_squared * factor + factor_1 * h1, factor_1 * h2, factor_1 * h3
-    k14 = factor_1 * h6
-    k22, k23, k24 = alpha_squared * factor + factor_2 * h2, factor_2 * h3, factor_2 * h6
-    k33, k34 = beta_squared * factor + factor_3 * h3, iota * factor + factor_3 * h6
-    k44 = eta_squared * factor + factor_4 * h6
+    overload = overload or NOUGHT
+    excess = overload**half_p
+    hard = gamma * (excess + 1)**per_p
+    lift = excess * hard / overload
+    h1, h2, h3 = per_gamma * m1, per_gamma * m2, per_gamma * m3
+    h6, lift_1, lift_2 = per_gamma * n3, h1 * lift, h2 * lift
+    lift_3, lift_4 = h3 * lift, h6 * lift
+    k11, k12, k13 = bending * hard + h1 * lift_1, h2 * lift_1, h3 * lift_1
+    k14 = h6 * lift_1
+    k22, k23, k24 = bending * hard + h2 * lift_2, h3 * lift_2, h6 * lift_2
+    k33, k34 = h3 * lift_3 + turning * hard, h6 * lift_3 + iota * hard
+    k44 = h6 * lift_4 + stretching * hard
     return (
         (k11, k12, k13, k14),
         (k12, k22, k23, k24),

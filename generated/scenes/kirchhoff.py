@@ -55,6 +55,8 @@ LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the 
 LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+NOUGHT = 2.0**-700  # stands for a square at rest: its inverse is a number
+DOUBLE = np.dtype(np.float64)
 HEADS = {
     "m": (3,), "u": (3,), "w": (), "w_star": (), "stiff": (3, 3), "soft": (3, 3), "limit_gap": (),
 }
@@ -127,14 +129,16 @@ class Constants:
     def of_strains(self) -> tuple[float, ...]:
         """What `strains` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, self.gamma, self.p, -self.per_p,
+            self.plain.bend_load, self.plain.turn_load, 0.5 * self.p, -self.plain.per_p,
+            self.plain.bend_soft, self.plain.turn_soft, *self.plain.room[DOUBLE],
         )
 
     @cached_property
     def of_loads(self) -> tuple[float, ...]:
         """What `loads` of one point takes."""
         return (
-            self.alpha, self.beta, -0.5 * self.p, self.gamma, self.per_p,
+            self.plain.turning, self.plain.bending, 0.5 * self.p, self.gamma, -self.plain.per_p,
+            *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -155,8 +159,8 @@ class Constants:
     def of_loads_and_stiffness(self) -> tuple[float, ...]:
         """What `loads_and_stiffness` of one point takes."""
         return (
-            self.alpha, self.beta, -0.5 * self.p, self.gamma, self.per_p, self.alpha**2,
-            self.beta**2,
+            self.plain.turning, self.plain.bending, 0.5 * self.p, self.gamma, -self.plain.per_p,
+            *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -171,15 +175,16 @@ class Constants:
     def of_strains_and_gap(self) -> tuple[float, ...]:
         """What `strains_and_gap` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, self.gamma, self.p, -self.per_p,
+            self.plain.bend_load, self.plain.turn_load, 0.5 * self.p, -self.plain.per_p,
+            self.plain.bend_soft, self.plain.turn_soft, *self.plain.room[DOUBLE],
         )
 
     @cached_property
     def of_stiffness_at_loads(self) -> tuple[float, ...]:
         """What `stiffness_at_loads` of one point takes."""
         return (
-            self.per_alpha, self.per_beta, 0.5 * self.p, self.per_gamma, self.gamma, self.per_p,
-            self.alpha, self.beta, self.alpha**2, self.beta**2,
+            self.plain.bend_load, self.plain.turn_load, 0.5 * self.p, self.gamma, self.plain.per_p,
+            self.plain.per_gamma, self.plain.bending, self.plain.turning, *self.plain.room[DOUBLE],
         )
 
 
@@ -199,9 +204,11 @@ class Plain:
         used = [v for v in (c.gamma, *vars(self).values()) if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
         self.within_q: dict[Any, tuple[float, float]] = {}
+        self.room: dict[Any, tuple[float, float]] = {}
         for kind, tiny in TINY.items():
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
+            self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
@@ -577,20 +584,17 @@ def _strains(loads: Rows, c: Constants, work: Array, u: Array) -> None:
 
 def _strains_at(m: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
-    per_alpha, per_beta, gamma, p, minus_per_p = c.of_strains
+    bend_load, turn_load, half_p, minus_per_p, bend_soft, turn_soft, low, high = c.of_strains
     m1, m2, m3 = m
-    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
-    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+    overload = bend_load * (m1 * m1 + m2 * m2) + turn_load * m3 * m3
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, turn = per_alpha * factor, per_beta * factor
-    return (bend * mu_1, bend * mu_2, mu_3 * turn)
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend = bend_soft * root
+    return (bend * m1, bend * m2, turn_soft * m3 * root)
 
 
 def strains(m: Given, constants: Constants, out: Array | None = None) -> Array:
@@ -659,18 +663,17 @@ def _loads(strains: Rows, c: Constants, work: Array, m: Array) -> None:
 
 def _loads_at(u: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
-    alpha, beta, minus_half_p, gamma, per_p = c.of_loads
+    turning, bending, half_p, gamma, minus_per_p, low, high = c.of_loads
     u1, u2, u3 = u
-    kappa_1, kappa_2, kappa_3 = alpha * u1, alpha * u2, beta * u3
-    q = kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3
-    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3))):
+    torque = turning * u3
+    q = bending * (u1 * u1 + u2 * u2) + turning * u3 * u3
+    if type(q) is not float or (not low < q < 1 and (q or low > high or any((u1, u2, u3)))):
         raise _Extreme
-    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
-    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
-    depth = log1p(growth)
-    factor = gamma * exp(per_p * depth)
-    bend, turn = alpha * factor, beta * factor
-    return (bend * kappa_1, bend * kappa_2, kappa_3 * turn)
+    q = q or NOUGHT
+    left = -expm1(half_p * log(q))
+    hard = gamma * left**minus_per_p
+    bend = bending * hard
+    return (bend * u1, bend * u2, hard * torque)
 
 
 def loads(u: Given, constants: Constants, out: Array | None = None) -> Array:
@@ -955,31 +958,28 @@ def _loads_and_stiffness(strains: Rows, c: Constants, work: Array, m: Array, sti
 
 def _loads_and_stiffness_at(u: Any, c: Constants) -> Any:
     """`loads_and_stiffness` of floats, where nothing is extreme."""
-    alpha, beta, minus_half_p, gamma, per_p, alpha_squared, beta_squared = c.of_loads_and_stiffness
+    turning, bending, half_p, gamma, minus_per_p, low, high = c.of_loads_and_stiffness
     u1, u2, u3 = u
-    kappa_1, kappa_2, kappa_3 = alpha * u1, alpha * u2, beta * u3
-    q = kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3
-    if type(q) is not float or (not LOW < q < 1 and any((u1, u2, u3))):
+    r3, r1, r2 = turning * u3, bending * u1, bending * u2
+    q = bending * (u1 * u1 + u2 * u2) + turning * u3 * u3
+    if type(q) is not float or (not low < q < 1 and (q or low > high or any((u1, u2, u3)))):
         raise _Extreme
-    x = sqrt(q)
-    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
-    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
-    depth = log1p(growth)
-    factor = gamma * exp(per_p * depth)
-    steep, bend, turn = factor * growth, alpha * factor, beta * factor
-    per_size = 1 / (x if x > LEAST else LEAST)
-    bend_per_size, turn_per_size = alpha * per_size, beta * per_size
-    t1, t2, t3 = bend_per_size * kappa_1, bend_per_size * kappa_2, kappa_3 * turn_per_size
-    steep_1, steep_2, steep_3 = steep * t1, steep * t2, steep * t3
-    k11, k12, k13 = alpha_squared * factor + steep_1 * t1, steep_1 * t2, steep_1 * t3
-    k22, k23 = alpha_squared * factor + steep_2 * t2, steep_2 * t3
-    k33 = beta_squared * factor + steep_3 * t3
+    q = q or NOUGHT
+    left = -expm1(half_p * log(q))
+    growth = 1 / left - 1
+    hard = gamma * left**minus_per_p
+    steep = growth * hard / q
+    bend, steep_1, steep_2 = bending * hard, r1 * steep, r2 * steep
+    steep_3 = r3 * steep
+    k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, r3 * steep_1
+    k22, k23 = bend + r2 * steep_2, r3 * steep_2
+    k33 = turning * hard + r3 * steep_3
     stiff = (
         (k11, k12, k13),
         (k12, k22, k23),
         (k13, k23, k33),
     )
-    return (bend * kappa_1, bend * kappa_2, kappa_3 * turn), stiff
+    return (bend * u1, bend * u2, hard * r3), stiff
 
 
 def loads_and_stiffness(u: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -1158,21 +1158,19 @@ def _strains_and_gap(loads: Rows, c: Constants, work: Array, u: Array, limit_gap
 
 def _strains_and_gap_at(m: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
-    per_alpha, per_beta, gamma, p, minus_per_p = c.of_strains_and_gap
+    (
+        bend_load, turn_load, half_p, minus_per_p, bend_soft, turn_soft, low, high,
+    ) = c.of_strains_and_gap
     m1, m2, m3 = m
-    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
-    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+    overload = bend_load * (m1 * m1 + m2 * m2) + turn_load * m3 * m3
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, turn = per_alpha * factor, per_beta * factor
-    remain = (1.0 if y <= gamma else power) / (power + 1)
-    return (bend * mu_1, bend * mu_2, mu_3 * turn), remain
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend = bend_soft * root
+    return (bend * m1, bend * m2, turn_soft * m3 * root), 1 / (excess + 1)
 
 
 def strains_and_gap(m: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -1261,28 +1259,23 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
 def _stiffness_at_loads_at(m: Any, c: Constants) -> Any:
     """`stiffness_at_loads` of floats, where nothing is extreme."""
     (
-        per_alpha, per_beta, half_p, per_gamma, gamma, per_p, alpha, beta, alpha_squared,
-        beta_squared,
+        bend_load, turn_load, half_p, gamma, per_p, per_gamma, bending, turning, low, high,
     ) = c.of_stiffness_at_loads
     m1, m2, m3 = m
-    mu_1, mu_2, mu_3 = per_alpha * m1, per_alpha * m2, per_beta * m3
-    q_star = mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m1, m2, m3))):
+    overload = bend_load * (m1 * m1 + m2 * m2) + turn_load * m3 * m3
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m1, m2, m3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    raw_1 = per_gamma * y
-    rise = (raw_1 if raw_1 > LEAST else LEAST)**half_p
-    raw_2 = 1 / (rise if rise > LEAST else LEAST)
-    half = raw_2 if raw_2 < rise else rise
-    power = half * half
-    factor = exp(per_p * log1p(power)) * (y if y > gamma else gamma)
-    rise_per_size = rise / (y if y > LEAST else LEAST)
-    bend_rise, turn_rise = alpha * rise_per_size, beta * rise_per_size
-    h1, h2, h3 = bend_rise * mu_1, bend_rise * mu_2, mu_3 * turn_rise
-    factor_1, factor_2, factor_3 = factor * h1, factor * h2, factor * h3
-    k11, k12, k13 = alpha_squared * factor + factor_1 * h1, factor_1 * h2, factor_1 * h3
-    k22, k23 = alpha_squared * factor + factor_2 * h2, factor_2 * h3
-    k33 = beta_squared * factor + factor_3 * h3
+    overload = overload or NOUGHT
+    excess = overload**half_p
+    hard = gamma * (excess + 1)**per_p
+    lift = excess * hard / overload
+    h1, h2, h3 = per_gamma * m1, per_gamma * m2, per_gamma * m3
+    lift_1, lift_2, lift_3 = h1 * lift, h2 * lift, h3 * lift
+    k11, k12, k13 = bending * hard + h1 * lift_1, h2 * lift_1, h3 * lift_1
+    k22, k23 = bending * hard + h2 * lift_2, h3 * lift_2
+    k33 = h3 * lift_3 + turning * hard
     return (
         (k11, k12, k13),
         (k12, k22, k23),

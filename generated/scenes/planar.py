@@ -56,6 +56,8 @@ LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the 
 LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+NOUGHT = 2.0**-700  # stands for a square at rest: its inverse is a number
+DOUBLE = np.dtype(np.float64)
 HEADS = {
     "m2": (), "n": (2,), "u2": (), "v": (2,), "w": (), "w_star": (), "stiff": (3, 3),
     "soft": (3, 3), "limit_gap": (),
@@ -133,14 +135,17 @@ class Constants:
     def of_strains(self) -> tuple[float, ...]:
         """What `strains` of one point takes."""
         return (
-            self.per_alpha, self.per_zeta, self.per_eta, self.gamma, self.p, -self.per_p,
+            self.plain.n3_extends, self.plain.bend_load, self.plain.shear_load, self.plain.slack,
+            0.5 * self.p, -self.plain.per_p, self.plain.bend_soft, self.plain.shear_soft,
+            *self.plain.room[DOUBLE],
         )
 
     @cached_property
     def of_loads(self) -> tuple[float, ...]:
         """What `loads` of one point takes."""
         return (
-            self.alpha, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p,
+            self.plain.slack, self.plain.bending, self.plain.shearing, 0.5 * self.p, self.gamma,
+            -self.plain.per_p, *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -161,8 +166,8 @@ class Constants:
     def of_loads_and_stiffness(self) -> tuple[float, ...]:
         """What `loads_and_stiffness` of one point takes."""
         return (
-            self.alpha, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p, self.alpha**2,
-            self.zeta**2, self.eta**2,
+            self.plain.slack, self.plain.bending, self.plain.shearing, 0.5 * self.p, self.gamma,
+            -self.plain.per_p, self.plain.stretching, *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -177,15 +182,18 @@ class Constants:
     def of_strains_and_gap(self) -> tuple[float, ...]:
         """What `strains_and_gap` of one point takes."""
         return (
-            self.per_alpha, self.per_zeta, self.per_eta, self.gamma, self.p, -self.per_p,
+            self.plain.n3_extends, self.plain.bend_load, self.plain.shear_load, self.plain.slack,
+            0.5 * self.p, -self.plain.per_p, self.plain.bend_soft, self.plain.shear_soft,
+            *self.plain.room[DOUBLE],
         )
 
     @cached_property
     def of_stiffness_at_loads(self) -> tuple[float, ...]:
         """What `stiffness_at_loads` of one point takes."""
         return (
-            self.per_alpha, self.per_zeta, self.per_eta, 0.5 * self.p, self.per_gamma, self.gamma,
-            self.per_p, self.alpha, self.zeta, self.eta, self.alpha**2, self.zeta**2, self.eta**2,
+            self.plain.n3_extends, self.plain.bend_load, self.plain.shear_load, self.plain.slack,
+            0.5 * self.p, self.gamma, self.plain.per_p, self.plain.per_gamma, self.plain.bending,
+            self.plain.shearing, self.plain.stretching, *self.plain.room[DOUBLE],
         )
 
 
@@ -208,9 +216,11 @@ class Plain:
         used = [v for v in (c.gamma, *vars(self).values()) if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
         self.within_q: dict[Any, tuple[float, float]] = {}
+        self.room: dict[Any, tuple[float, float]] = {}
         for kind, tiny in TINY.items():
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
+            self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
@@ -593,20 +603,21 @@ def _strains(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> Non
 
 def _strains_at(m2: Any, n: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
-    per_alpha, per_zeta, per_eta, gamma, p, minus_per_p = c.of_strains
+    (
+        n3_extends, bend_load, shear_load, slack, half_p, minus_per_p, bend_soft, shear_soft, low,
+        high,
+    ) = c.of_strains
     n1, n3 = n
-    mu_2, nu_1, nu_3 = per_alpha * m2, per_zeta * n1, per_eta * n3
-    q_star = mu_2 * mu_2 + nu_1 * nu_1 + nu_3 * nu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m2, n1, n3))):
+    extension = n3_extends * n3
+    overload = bend_load * m2 * m2 + slack * extension * extension + shear_load * n1 * n1
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m2, n1, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, shear, extend = per_alpha * factor, per_zeta * factor, per_eta * factor
-    return bend * mu_2, (nu_1 * shear, extend * nu_3 + 1)
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend, shear = bend_soft * root, shear_soft * root
+    return bend * m2, (n1 * shear, extension * root + 1)
 
 
 def strains(m2: Given | float, n: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -679,19 +690,18 @@ def _loads(strains: Rows, c: Constants, work: Array, m2: Array, n: Array) -> Non
 
 def _loads_at(u2: Any, v: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
-    alpha, zeta, eta, minus_half_p, gamma, per_p = c.of_loads
+    slack, bending, shearing, half_p, gamma, minus_per_p, low, high = c.of_loads
     v1, v3 = v
     stretch = v3 - 1
-    kappa_2, lam_1, lam_3 = alpha * u2, zeta * v1, eta * stretch
-    q = kappa_2 * kappa_2 + lam_1 * lam_1 + lam_3 * lam_3
-    if type(q) is not float or (not LOW < q < 1 and any((u2, v1, stretch))):
+    slack_pull = slack * stretch
+    q = bending * u2 * u2 + shearing * v1 * v1 + slack_pull * stretch
+    if type(q) is not float or (not low < q < 1 and (q or low > high or any((u2, v1, stretch)))):
         raise _Extreme
-    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
-    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
-    depth = log1p(growth)
-    factor = gamma * exp(per_p * depth)
-    bend, shear, extend = alpha * factor, zeta * factor, eta * factor
-    return bend * kappa_2, (lam_1 * shear, extend * lam_3)
+    q = q or NOUGHT
+    left = -expm1(half_p * log(q))
+    hard = gamma * left**minus_per_p
+    bend, shear = bending * hard, shearing * hard
+    return bend * u2, (shear * v1, hard * slack_pull)
 
 
 def loads(u2: Given | float, v: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -992,34 +1002,31 @@ def _loads_and_stiffness(
 def _loads_and_stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
     """`loads_and_stiffness` of floats, where nothing is extreme."""
     (
-        alpha, zeta, eta, minus_half_p, gamma, per_p, alpha_squared, zeta_squared, eta_squared,
+        slack, bending, shearing, half_p, gamma, minus_per_p, stretching, low, high,
     ) = c.of_loads_and_stiffness
     v1, v3 = v
     stretch = v3 - 1
-    kappa_2, lam_1, lam_3 = alpha * u2, zeta * v1, eta * stretch
-    q = kappa_2 * kappa_2 + lam_1 * lam_1 + lam_3 * lam_3
-    if type(q) is not float or (not LOW < q < 1 and any((u2, v1, stretch))):
+    slack_pull, r2, r4 = slack * stretch, bending * u2, shearing * v1
+    r6 = slack_pull
+    q = bending * u2 * u2 + shearing * v1 * v1 + slack_pull * stretch
+    if type(q) is not float or (not low < q < 1 and (q or low > high or any((u2, v1, stretch)))):
         raise _Extreme
-    x = sqrt(q)
-    raw_1 = minus_half_p * log(q if q > LEAST else LEAST)
-    growth = 1 / expm1(raw_1 if raw_1 < LOG_MOST else LOG_MOST)
-    depth = log1p(growth)
-    factor = gamma * exp(per_p * depth)
-    steep, bend, shear, extend = factor * growth, alpha * factor, zeta * factor, eta * factor
-    per_size = 1 / (x if x > LEAST else LEAST)
-    bend_per_size, shear_per_size = alpha * per_size, zeta * per_size
-    extend_per_size, t2, t4 = eta * per_size, bend_per_size * kappa_2, lam_1 * shear_per_size
-    t6, steep_1, steep_2 = extend_per_size * lam_3, steep * t2, steep * t4
-    steep_3 = steep * t6
-    k11, k12, k13 = alpha_squared * factor + steep_1 * t2, steep_1 * t4, steep_1 * t6
-    k22, k23 = zeta_squared * factor + steep_2 * t4, steep_2 * t6
-    k33 = eta_squared * factor + steep_3 * t6
+    q = q or NOUGHT
+    left = -expm1(half_p * log(q))
+    growth = 1 / left - 1
+    hard = gamma * left**minus_per_p
+    steep = growth * hard / q
+    bend, shear, steep_1 = bending * hard, shearing * hard, r2 * steep
+    steep_2, steep_3 = r4 * steep, r6 * steep
+    k11, k12, k13 = bend + r2 * steep_1, r4 * steep_1, r6 * steep_1
+    k22, k23 = r4 * steep_2 + shear, r6 * steep_2
+    k33 = stretching * hard + r6 * steep_3
     stiff = (
         (k11, k12, k13),
         (k12, k22, k23),
         (k13, k23, k33),
     )
-    return bend * kappa_2, (lam_1 * shear, extend * lam_3), stiff
+    return bend * u2, (shear * v1, hard * r6), stiff
 
 
 def loads_and_stiffness(
@@ -1213,21 +1220,21 @@ def _strains_and_gap(
 
 def _strains_and_gap_at(m2: Any, n: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
-    per_alpha, per_zeta, per_eta, gamma, p, minus_per_p = c.of_strains_and_gap
+    (
+        n3_extends, bend_load, shear_load, slack, half_p, minus_per_p, bend_soft, shear_soft, low,
+        high,
+    ) = c.of_strains_and_gap
     n1, n3 = n
-    mu_2, nu_1, nu_3 = per_alpha * m2, per_zeta * n1, per_eta * n3
-    q_star = mu_2 * mu_2 + nu_1 * nu_1 + nu_3 * nu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m2, n1, n3))):
+    extension = n3_extends * n3
+    overload = bend_load * m2 * m2 + slack * extension * extension + shear_load * n1 * n1
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m2, n1, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    bend, shear, extend = per_alpha * factor, per_zeta * factor, per_eta * factor
-    remain = (1.0 if y <= gamma else power) / (power + 1)
-    return bend * mu_2, (nu_1 * shear, extend * nu_3 + 1), remain
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    bend, shear = bend_soft * root, shear_soft * root
+    return bend * m2, (n1 * shear, extension * root + 1), 1 / (excess + 1)
 
 
 def strains_and_gap(
@@ -1322,29 +1329,25 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
 def _stiffness_at_loads_at(m2: Any, n: Any, c: Constants) -> Any:
     """`stiffness_at_loads` of floats, where nothing is extreme."""
     (
-        per_alpha, per_zeta, per_eta, half_p, per_gamma, gamma, per_p, alpha, zeta, eta,
-        alpha_squared, zeta_squared, eta_squared,
+        n3_extends, bend_load, shear_load, slack, half_p, gamma, per_p, per_gamma, bending,
+        shearing, stretching, low, high,
     ) = c.of_stiffness_at_loads
     n1, n3 = n
-    mu_2, nu_1, nu_3 = per_alpha * m2, per_zeta * n1, per_eta * n3
-    q_star = mu_2 * mu_2 + nu_1 * nu_1 + nu_3 * nu_3
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((m2, n1, n3))):
+    extension = n3_extends * n3
+    overload = bend_load * m2 * m2 + slack * extension * extension + shear_load * n1 * n1
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((m2, n1, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    raw_1 = per_gamma * y
-    rise = (raw_1 if raw_1 > LEAST else LEAST)**half_p
-    raw_2 = 1 / (rise if rise > LEAST else LEAST)
-    half = raw_2 if raw_2 < rise else rise
-    power = half * half
-    factor = exp(per_p * log1p(power)) * (y if y > gamma else gamma)
-    rise_per_size = rise / (y if y > LEAST else LEAST)
-    bend_rise, shear_rise = alpha * rise_per_size, zeta * rise_per_size
-    extend_rise, h2, h4 = eta * rise_per_size, bend_rise * mu_2, nu_1 * shear_rise
-    h6, factor_1, factor_2 = extend_rise * nu_3, factor * h2, factor * h4
-    factor_3 = factor * h6
-    k11, k12, k13 = alpha_squared * factor + factor_1 * h2, factor_1 * h4, factor_1 * h6
-    k22, k23 = zeta_squared * factor + factor_2 * h4, factor_2 * h6
-    k33 = eta_squared * factor + factor_3 * h6
+    overload = overload or NOUGHT
+    excess = overload**half_p
+    hard = gamma * (excess + 1)**per_p
+    lift = excess * hard / overload
+    h2, h4, h6 = per_gamma * m2, per_gamma * n1, per_gamma * n3
+    lift_1, lift_2, lift_3 = h2 * lift, h4 * lift, h6 * lift
+    k11, k12, k13 = bending * hard + h2 * lift_1, h4 * lift_1, h6 * lift_1
+    k22, k23 = h4 * lift_2 + shearing * hard, h6 * lift_2
+    k33 = h6 * lift_3 + stretching * hard
     return (
         (k11, k12, k13),
         (k12, k22, k23),

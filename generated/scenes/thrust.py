@@ -47,6 +47,7 @@ ROWS = 14  # of scratch
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+DOUBLE = np.dtype(np.float64)
 HEADS = {"n": (3,), "u3": (), "v": (3,), "w_star": (), "soft": (3, 3), "limit_gap": ()}
 
 
@@ -135,8 +136,8 @@ class Constants:
     def of_strains(self) -> tuple[float, ...]:
         """What `strains` of one point takes."""
         return (
-            self.per_zeta, self.n3_dilates, -self.chirality, self.gap, self.gamma, self.p,
-            -self.per_p, self.per_beta, self.per_eta,
+            self.plain.n3_extends, self.plain.shear_load, self.plain.slack, 0.5 * self.p,
+            -self.plain.per_p, self.plain.shear_soft, -self.plain.untwist, *self.plain.room[DOUBLE],
         )
 
     @cached_property
@@ -158,8 +159,8 @@ class Constants:
     def of_strains_and_gap(self) -> tuple[float, ...]:
         """What `strains_and_gap` of one point takes."""
         return (
-            self.per_zeta, self.n3_dilates, -self.chirality, self.gap, self.gamma, self.p,
-            -self.per_p, self.per_beta, self.per_eta,
+            self.plain.n3_extends, self.plain.shear_load, self.plain.slack, 0.5 * self.p,
+            -self.plain.per_p, self.plain.shear_soft, -self.plain.untwist, *self.plain.room[DOUBLE],
         )
 
 
@@ -178,9 +179,11 @@ class Plain:
         self.per_p = _rounded(1 / p)
         used = [v for v in vars(self).values() if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
+        self.room: dict[Any, tuple[float, float]] = {}
         for kind, tiny in TINY.items():
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
+            self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
 
@@ -490,22 +493,19 @@ def _strains(loads: Rows, c: Constants, work: Array, u3: Array, v: Array) -> Non
 def _strains_at(n: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
-        per_zeta, n3_dilates, minus_chirality, gap, gamma, p, minus_per_p, per_beta, per_eta,
+        n3_extends, shear_load, slack, half_p, minus_per_p, shear_soft, minus_untwist, low, high,
     ) = c.of_strains
     n1, n2, n3 = n
-    nu_1, nu_2, dilatation = per_zeta * n1, per_zeta * n2, n3_dilates * n3
-    twist = minus_chirality * dilatation
-    q_star = gap * dilatation * dilatation + nu_1 * nu_1 + nu_2 * nu_2
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((n1, n2, n3))):
+    extension = n3_extends * n3
+    overload = slack * extension * extension + shear_load * (n1 * n1 + n2 * n2)
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((n1, n2, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    turn, shear, extend = per_beta * factor, per_zeta * factor, per_eta * factor
-    return turn * twist, (nu_1 * shear, nu_2 * shear, dilatation * extend + 1)
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    shear = shear_soft * root
+    return minus_untwist * extension * root, (n1 * shear, n2 * shear, extension * root + 1)
 
 
 def strains(n: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -740,23 +740,23 @@ def _strains_and_gap(
 def _strains_and_gap_at(n: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
     (
-        per_zeta, n3_dilates, minus_chirality, gap, gamma, p, minus_per_p, per_beta, per_eta,
+        n3_extends, shear_load, slack, half_p, minus_per_p, shear_soft, minus_untwist, low, high,
     ) = c.of_strains_and_gap
     n1, n2, n3 = n
-    nu_1, nu_2, dilatation = per_zeta * n1, per_zeta * n2, n3_dilates * n3
-    twist = minus_chirality * dilatation
-    q_star = gap * dilatation * dilatation + nu_1 * nu_1 + nu_2 * nu_2
-    if type(q_star) is not float or (not LOW < q_star < HIGH and any((n1, n2, n3))):
+    extension = n3_extends * n3
+    overload = slack * extension * extension + shear_load * (n1 * n1 + n2 * n2)
+    if type(overload) is not float or (
+        not low < overload < high and (overload or low > high or any((n1, n2, n3)))
+    ):
         raise _Extreme
-    y = sqrt(q_star)
-    larger = y if y > gamma else gamma
-    raw_1 = (y if y < gamma else gamma) / larger
-    ratio = raw_1 if raw_1 > LEAST else LEAST
-    power = ratio**p
-    factor = exp(minus_per_p * log1p(power)) / larger
-    turn, shear, extend = per_beta * factor, per_zeta * factor, per_eta * factor
-    remain = (1.0 if y <= gamma else power) / (power + 1)
-    return turn * twist, (nu_1 * shear, nu_2 * shear, dilatation * extend + 1), remain
+    excess = overload**half_p
+    root = (excess + 1)**minus_per_p
+    shear = shear_soft * root
+    return (
+        minus_untwist * extension * root,
+        (n1 * shear, n2 * shear, extension * root + 1),
+        1 / (excess + 1),
+    )
 
 
 def strains_and_gap(n: Given, constants: Constants, out: Triple | None = None) -> Triple:
