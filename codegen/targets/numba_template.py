@@ -27,6 +27,7 @@ LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 LEAST = 2.0**-1022  # the smallest normal number
 LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
 DOUBLE = np.dtype(np.float64)
+EXP_40 = 4.248354255291589e-18  # exp(-40)
 LN2, LN2_REST = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # log 2, in two parts
 PER_LN2 = 1 / math.log(2)
 SQRT_HALF = 0x3FE6A09E667F3BCD  # the bits of 2^(-1/2)
@@ -55,10 +56,12 @@ def _reduced(x: float) -> tuple[float, float]:
     "_exp": '''\
 @at_point
 def _exp(x: float) -> float:
-    """exp x; 2^-1021 where it is smaller."""
-    high = 709.5 if x > 709.5 else x
+    """exp x; below the normal numbers in two steps."""
+    far = x < -668.0
+    high = 709.5 if x > 709.5 else x + 40.0 if far else x
     rest, power = _reduced(-708.0 if high < -708.0 else high)
-    return math.inf if x > 709.5 else power + power * rest
+    value = power + power * rest
+    return math.inf if x > 709.5 else value * EXP_40 if far else value
 ''',
     "_expm1": '''\
 @at_point

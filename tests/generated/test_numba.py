@@ -56,6 +56,29 @@ def test_own_functions_are_within_an_ulp(name: str, low: float, high: float) -> 
     assert name.startswith("log") or made[2] == math.inf
 
 
+def test_exp_goes_down_to_nought() -> None:
+    """To within the spacing of the subnormal numbers; below the least one it is nought."""
+
+    @njit
+    def at(x):
+        return full_rod._exp(x)
+
+    for x in (*np.linspace(-760, -660, 201), -1e4, -1e300, -math.inf):
+        true = MP.exp(MP.mpf(float(x)))
+        assert abs(MP.mpf(at(float(x))) - true) <= max(2 * true * MP.mpf(2) ** -52, 2.0**-1074), x
+
+
+def test_the_gap_is_that_of_arrays_down_to_nought() -> None:
+    c, twin = full_rod.Constants(**GOOD, p=3.3), rod.Constants(**GOOD, p=3.3)
+    m, n = np.zeros((2, 3, 400))
+    n[2] = 10.0 ** np.linspace(0, 110, 400)
+    with np.errstate(under="ignore"):
+        *_, got = full_rod.strains_and_gap(m, n, c)
+        *_, want = rod.strains_and_gap(m, n, twin)
+    np.testing.assert_allclose(got, want, rtol=2e-13, atol=2.0**-1073)
+    assert want[-1] == got[-1] == 0
+
+
 def test_callable_from_compiled_code() -> None:
     """The functions of one point, in a loop of somebody else's."""
     there, back = full_rod_p2.strains_at, full_rod_p2.loads_at
