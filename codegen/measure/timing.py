@@ -20,6 +20,10 @@ FEW = 8
 DRAWN = 32
 #: A call shorter than this is repeated until it is not.
 SHORTEST_NS = 200_000
+#: A call that takes longer meets caches of its own making anyway.
+WARMED_NS = 10_000_000
+#: What takes longer than this is timed in the first rounds alone.
+SLOW_NS, SLOW_ROUNDS = 500_000_000, 3
 
 
 def times(
@@ -73,15 +77,22 @@ def medians(
 ) -> dict[str, float]:
     """Nanoseconds of each call, which has run before: each in every round, the median of them.
 
-    shortest: a call that takes less is repeated within its turn.
+    shortest: a call that takes less is repeated within its turn. What is quick runs once untimed
+    before its turn, since those before it have left their own data in the caches; what is slow
+    runs in the first rounds alone.
     """
-    repeats = {name: max(1, round(shortest / clock(call, 1))) for name, call in calls.items()}
+    once = {name: min(clock(call, 1), clock(call, 1)) for name, call in calls.items()}
+    repeats = {name: max(1, round(shortest / ns)) for name, ns in once.items()}
     samples: dict[str, list[float]] = {name: [] for name in calls}
     gc.collect()
     gc.disable()
     try:
-        for _ in range(rounds):
+        for turn in range(rounds):
             for name, call in calls.items():
+                if once[name] > SLOW_NS and turn >= SLOW_ROUNDS:
+                    continue
+                if once[name] < WARMED_NS:
+                    call()
                 samples[name].append(clock(call, repeats[name]))
     finally:
         gc.enable()

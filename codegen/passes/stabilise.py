@@ -376,8 +376,12 @@ DIRECT_COMPLIANCE = Rule(
 )
 
 
-def _direct_stiffness(root: sp.Symbol) -> Rule:
-    """K eps/x by the root of Q, or by that of the scaled Q with strains of the same scale."""
+def _direct_stiffness(root: sp.Symbol, least: sp.Expr = sp.S.Zero) -> Rule:
+    """K eps/x by the root of Q, or by that of the scaled Q with strains of the same scale.
+
+    Where the root may be nought, ``least`` is small beside every other, and so large that its
+    inverse times a modulus is a number.
+    """
     per = symbol(f"per_{root}")
     reduced = (kappa_1, kappa_2, torque, lam_1, lam_2, tension)
     scaled = dict(zip(answers, moduli, strict=True))
@@ -389,7 +393,7 @@ def _direct_stiffness(root: sp.Symbol) -> Rule:
         ),
         (
             TENSION,
-            Assignment(per.name, 1 / root),
+            Assignment(per.name, 1 / (sp.Max(root, least) if least else root)),
             *(Assignment(f"{answer}_{per}", modulus * per) for answer, modulus in scaled.items()),
         ),
         "beta^2 u3 + iota (v3 - 1) forms squares of constants that may leave the range of numbers",
@@ -398,7 +402,7 @@ def _direct_stiffness(root: sp.Symbol) -> Rule:
 
 
 DIRECT_STIFFNESS = _direct_stiffness(sp.Symbol("x", positive=True))
-DIRECT_SCALED_STIFFNESS = _direct_stiffness(size)
+DIRECT_SCALED_STIFFNESS = _direct_stiffness(size, sp.sqrt(tiny))
 
 
 def _rank_one(

@@ -103,7 +103,8 @@ def _spread() -> Rule:
     reduced = zip(h, answers, (mu_1, mu_2, mu_3, nu_1, nu_2, nu_3), strict=True)
     scaled = dict(zip(answers, moduli, strict=True))
     definitions = (
-        Assignment("rise_per_size", rise / size),
+        # a floor for rest alone: every other norm is far above it
+        Assignment("rise_per_size", rise / sp.Max(size, sp.sqrt(tiny))),
         *(Assignment(f"{a.name}_rise", m * symbol("rise_per_size")) for a, m in scaled.items()),
         *(Assignment(k.name, symbol(f"{a.name}_rise") * row) for k, a, row in reduced),
     )

@@ -27,6 +27,7 @@ MATH: dict[type, str] = {sp.exp: "exp", sp.log: "log", log1p: "log1p", expm1: "e
 LIMITS = {tiny.name: "LEAST", log_max.name: "LOG_MOST"}
 LETTERS = {"stiff": "k", "soft": "s"}  # entries of a matrix: k12 and its like
 SCALE = symbol("scale")
+ROOT = sp.sqrt(symbol(tiny.name))
 
 
 @dataclass(frozen=True)
@@ -270,9 +271,11 @@ def _resolved(kernel: Kernel, dialect: Dialect) -> Kernel:
         whole = radius**2 if rooted else taken / SCALE**2
         added += [Assignment(gauge.square, whole)] if gauge.square in used else []
         after = {norm: sp.Max(norm, tiny), symbol(gauge.unscale): 1 / SCALE}
+        after |= {sp.Max(norm, ROOT): sp.Max(norm, ROOT)}  # has a floor
     else:
         added += [Assignment(gauge.radius, sp.sqrt(own))] if rooted else []
         after = {norm: sp.Max(radius, tiny), symbol(gauge.unscale): sp.S.One}
+        after |= {sp.Max(norm, ROOT): sp.Max(radius, ROOT)}
     body: list[Assignment] = []
     for a in kernel.body:
         if a.name == gauge.square:

@@ -19,10 +19,10 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     stored_energy          32    4    1   13
     complementary_energy   41    6    1   13
     stiffness             107    4    0   26
-    loads_and_stiffness   116    4    0   29
+    loads_and_stiffness   118    4    0   29
     compliance            160    4    0   39
     strains_and_gap        50    4    0   17
-    stiffness_at_loads    108    4    0   23
+    stiffness_at_loads    110    4    0   23
 """
 
 from __future__ import annotations
@@ -740,7 +740,7 @@ def _loads_and_stiffness(
         c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
         + lam_2 * lam_2 + torque * torque
     )
-    size = sqrt(square)
+    size, raw_2 = sqrt(square), sqrt(LEAST)
     x = size / scale
     q = x * x
     raw_1 = -0.5 * c.p * _log(q if q > LEAST else LEAST)
@@ -748,7 +748,7 @@ def _loads_and_stiffness(
     depth = _log1p(growth)
     factor = c.gamma * _exp(c.per_p * depth)
     steep = factor * growth
-    per_size = 1 / (size if size > LEAST else LEAST)
+    per_size = 1 / (raw_2 if raw_2 > size else size)
     bend_per_size, turn_per_size = c.alpha * per_size, c.beta * per_size
     shear_per_size, extend_per_size = c.zeta * per_size, c.eta * per_size
     secant = factor / scale
@@ -1080,7 +1080,7 @@ def _stiffness_at_loads(
         c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
         + nu_2 * nu_2
     )
-    size = sqrt(square)
+    size, raw_3 = sqrt(square), sqrt(LEAST)
     y = size / scale
     raw_1 = c.per_gamma * y
     rise = _exp(0.5 * c.p * _log(raw_1 if raw_1 > LEAST else LEAST))
@@ -1088,7 +1088,7 @@ def _stiffness_at_loads(
     half = raw_2 if raw_2 < rise else rise
     power = half * half
     factor = _exp(c.per_p * _log1p(power)) * (y if y > c.gamma else c.gamma)
-    rise_per_size = rise / (size if size > LEAST else LEAST)
+    rise_per_size = rise / (raw_3 if raw_3 > size else size)
     bend_rise, turn_rise = c.alpha * rise_per_size, c.beta * rise_per_size
     shear_rise, extend_rise, h1 = c.zeta * rise_per_size, c.eta * rise_per_size, bend_rise * mu_1
     h2, h3, h4, h5 = bend_rise * mu_2, mu_3 * turn_rise, nu_1 * shear_rise, nu_2 * shear_rise

@@ -21,10 +21,10 @@ Operations a point: arithmetic, transcendental, energy shares, temporaries
     stored_energy          30    0    0   12
     complementary_energy   37    0    0   12
     stiffness             107    0    0   27
-    loads_and_stiffness   116    0    0   30
+    loads_and_stiffness   118    0    0   30
     compliance            159    0    0   39
     strains_and_gap        49    0    0   17
-    stiffness_at_loads    106    0    0   23
+    stiffness_at_loads    108    0    0   23
 """
 
 from __future__ import annotations
@@ -619,13 +619,13 @@ def _loads_and_stiffness(
         c.gap * lam_3 * lam_3 + kappa_1 * kappa_1 + kappa_2 * kappa_2 + lam_1 * lam_1
         + lam_2 * lam_2 + torque * torque
     )
-    size = sqrt(square)
+    size, raw_1 = sqrt(square), sqrt(LEAST)
     x = size / scale
     q = x * x
     left = 1 - q
     root = sqrt(left)
     factor, growth = c.gamma / root, q / left
-    per_size = 1 / (size if size > LEAST else LEAST)
+    per_size = 1 / (raw_1 if raw_1 > size else size)
     bend_per_size, turn_per_size = c.alpha * per_size, c.beta * per_size
     shear_per_size, extend_per_size, steep = c.zeta * per_size, c.eta * per_size, factor * growth
     secant = factor / scale
@@ -954,14 +954,14 @@ def _stiffness_at_loads(
         c.gap * dilatation * dilatation + mu_1 * mu_1 + mu_2 * mu_2 + mu_3 * mu_3 + nu_1 * nu_1
         + nu_2 * nu_2
     )
-    size = sqrt(square)
+    size, raw_2 = sqrt(square), sqrt(LEAST)
     y = size / scale
     rise = c.per_gamma * y
     raw_1 = 1 / (rise if rise > LEAST else LEAST)
     half = raw_1 if raw_1 < rise else rise
     power = half * half
     factor = sqrt(power + 1) * (y if y > c.gamma else c.gamma)
-    rise_per_size = rise / (size if size > LEAST else LEAST)
+    rise_per_size = rise / (raw_2 if raw_2 > size else size)
     bend_rise, turn_rise = c.alpha * rise_per_size, c.beta * rise_per_size
     shear_rise, extend_rise, h1 = c.zeta * rise_per_size, c.eta * rise_per_size, bend_rise * mu_1
     h2, h3, h4, h5 = bend_rise * mu_2, mu_3 * turn_rise, nu_1 * shear_rise, nu_2 * shear_rise

@@ -1082,6 +1082,7 @@ def _loads_and_stiffness(
     kappa_1, kappa_2, kappa_3, lam_1, lam_2, lam_3 = values
     q = _within_limit(q)
     growth, _, factor = _stiffen(q, c, s[7:])
+    tiny = TINY[q.dtype]
     t = work[:6]
     secant = factor if unscale is None else factor * unscale
     bend = np.multiply(c.alpha, secant, out=s[6])
@@ -1095,7 +1096,8 @@ def _loads_and_stiffness(
     extend = np.multiply(c.eta, secant, out=s[6])
     np.multiply(extend, lam_3, out=n[2])
     steep = np.multiply(factor, growth, out=s[7])
-    per_size = np.divide(1, size, out=s[6])
+    per_size = np.maximum(size, np.sqrt(tiny), out=s[6])
+    np.divide(1, per_size, out=per_size)
     bend_per_size = np.multiply(c.alpha, per_size, out=s[8])
     np.multiply(bend_per_size, kappa_1, out=t[0])
     np.multiply(bend_per_size, kappa_2, out=t[1])
@@ -1527,28 +1529,30 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3, nu_1, nu_2, nu_3 = values
     rise, factor = _harden(y, c, s[7:])
+    tiny = TINY[y.dtype]
     h = work[:6]
-    rise_per_size = np.divide(rise, size, out=s[7])
-    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[6])
+    rise_per_size = np.maximum(size, np.sqrt(tiny), out=s[6])
+    np.divide(rise, rise_per_size, out=rise_per_size)
+    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[7])
     np.multiply(bend_rise, mu_1, out=h[0])
     np.multiply(bend_rise, mu_2, out=h[1])
-    turn_rise = np.multiply(c.beta, rise_per_size, out=s[6])
+    turn_rise = np.multiply(c.beta, rise_per_size, out=s[7])
     np.multiply(mu_3, turn_rise, out=h[2])
-    shear_rise = np.multiply(c.zeta, rise_per_size, out=s[6])
+    shear_rise = np.multiply(c.zeta, rise_per_size, out=s[7])
     np.multiply(nu_1, shear_rise, out=h[3])
     np.multiply(nu_2, shear_rise, out=h[4])
-    extend_rise = np.multiply(c.eta, rise_per_size, out=s[7])
+    extend_rise = np.multiply(c.eta, rise_per_size, out=s[6])
     np.multiply(extend_rise, nu_3, out=h[5])
     for i in range(6):
-        np.multiply(factor, h[i], out=s[7])
-        np.multiply(s[7], h[i:], out=stiff[i, i:])
-    np.multiply(c.alpha**2, factor, out=s[7])
-    stiff[0, 0] += s[7]
-    stiff[1, 1] += s[7]
-    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[7])
-    np.multiply(c.zeta**2, factor, out=s[7])
-    stiff[3, 3] += s[7]
-    stiff[4, 4] += s[7]
+        np.multiply(factor, h[i], out=s[6])
+        np.multiply(s[6], h[i:], out=stiff[i, i:])
+    np.multiply(c.alpha**2, factor, out=s[6])
+    stiff[0, 0] += s[6]
+    stiff[1, 1] += s[6]
+    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[6])
+    np.multiply(c.zeta**2, factor, out=s[6])
+    stiff[3, 3] += s[6]
+    stiff[4, 4] += s[6]
     stiff[5, 5] += np.multiply(c.eta**2, factor, out=s[8])
     for i in range(1, 6):
         stiff[i, :i] = stiff[:i, i]

@@ -931,6 +931,7 @@ def _loads_and_stiffness(strains: Rows, c: Constants, work: Array, m: Array, sti
     kappa_1, kappa_2, kappa_3 = values
     q = _within_limit(q)
     growth, _, factor = _stiffen(q, c, s[4:])
+    tiny = TINY[q.dtype]
     t = work[:3]
     secant = factor if unscale is None else factor * unscale
     bend = np.multiply(c.alpha, secant, out=s[3])
@@ -939,7 +940,8 @@ def _loads_and_stiffness(strains: Rows, c: Constants, work: Array, m: Array, sti
     turn = np.multiply(c.beta, secant, out=s[3])
     np.multiply(kappa_3, turn, out=m[2])
     steep = np.multiply(factor, growth, out=s[4])
-    per_size = np.divide(1, size, out=s[3])
+    per_size = np.maximum(size, np.sqrt(tiny), out=s[3])
+    np.divide(1, per_size, out=per_size)
     bend_per_size = np.multiply(c.alpha, per_size, out=s[5])
     np.multiply(bend_per_size, kappa_1, out=t[0])
     np.multiply(bend_per_size, kappa_2, out=t[1])
@@ -1238,19 +1240,21 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     mu_1, mu_2, mu_3 = values
     rise, factor = _harden(y, c, s[4:])
+    tiny = TINY[y.dtype]
     h = work[:3]
-    rise_per_size = np.divide(rise, size, out=s[4])
-    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[3])
+    rise_per_size = np.maximum(size, np.sqrt(tiny), out=s[3])
+    np.divide(rise, rise_per_size, out=rise_per_size)
+    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[4])
     np.multiply(bend_rise, mu_1, out=h[0])
     np.multiply(bend_rise, mu_2, out=h[1])
-    turn_rise = np.multiply(c.beta, rise_per_size, out=s[4])
+    turn_rise = np.multiply(c.beta, rise_per_size, out=s[3])
     np.multiply(mu_3, turn_rise, out=h[2])
     for i in range(3):
-        np.multiply(factor, h[i], out=s[4])
-        np.multiply(s[4], h[i:], out=stiff[i, i:])
-    np.multiply(c.alpha**2, factor, out=s[4])
-    stiff[0, 0] += s[4]
-    stiff[1, 1] += s[4]
+        np.multiply(factor, h[i], out=s[3])
+        np.multiply(s[3], h[i:], out=stiff[i, i:])
+    np.multiply(c.alpha**2, factor, out=s[3])
+    stiff[0, 0] += s[3]
+    stiff[1, 1] += s[3]
     stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[5])
     for i in range(1, 3):
         stiff[i, :i] = stiff[:i, i]

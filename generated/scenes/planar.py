@@ -973,6 +973,7 @@ def _loads_and_stiffness(
     kappa_2, lam_1, lam_3 = values
     q = _within_limit(q)
     growth, _, factor = _stiffen(q, c, s[4:])
+    tiny = TINY[q.dtype]
     t = work[:3]
     secant = factor if unscale is None else factor * unscale
     bend = np.multiply(c.alpha, secant, out=s[3])
@@ -982,7 +983,8 @@ def _loads_and_stiffness(
     extend = np.multiply(c.eta, secant, out=s[3])
     np.multiply(extend, lam_3, out=n[1])
     steep = np.multiply(factor, growth, out=s[4])
-    per_size = np.divide(1, size, out=s[3])
+    per_size = np.maximum(size, np.sqrt(tiny), out=s[3])
+    np.divide(1, per_size, out=per_size)
     bend_per_size = np.multiply(c.alpha, per_size, out=s[5])
     np.multiply(bend_per_size, kappa_2, out=t[0])
     shear_per_size = np.multiply(c.zeta, per_size, out=s[5])
@@ -1308,19 +1310,21 @@ def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) ->
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
     mu_2, nu_1, nu_3 = values
     rise, factor = _harden(y, c, s[4:])
+    tiny = TINY[y.dtype]
     h = work[:3]
-    rise_per_size = np.divide(rise, size, out=s[4])
-    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[3])
+    rise_per_size = np.maximum(size, np.sqrt(tiny), out=s[3])
+    np.divide(rise, rise_per_size, out=rise_per_size)
+    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[4])
     np.multiply(bend_rise, mu_2, out=h[0])
-    shear_rise = np.multiply(c.zeta, rise_per_size, out=s[3])
+    shear_rise = np.multiply(c.zeta, rise_per_size, out=s[4])
     np.multiply(nu_1, shear_rise, out=h[1])
-    extend_rise = np.multiply(c.eta, rise_per_size, out=s[4])
+    extend_rise = np.multiply(c.eta, rise_per_size, out=s[3])
     np.multiply(extend_rise, nu_3, out=h[2])
     for i in range(3):
-        np.multiply(factor, h[i], out=s[4])
-        np.multiply(s[4], h[i:], out=stiff[i, i:])
-    stiff[0, 0] += np.multiply(c.alpha**2, factor, out=s[4])
-    stiff[1, 1] += np.multiply(c.zeta**2, factor, out=s[4])
+        np.multiply(factor, h[i], out=s[3])
+        np.multiply(s[3], h[i:], out=stiff[i, i:])
+    stiff[0, 0] += np.multiply(c.alpha**2, factor, out=s[3])
+    stiff[1, 1] += np.multiply(c.zeta**2, factor, out=s[3])
     stiff[2, 2] += np.multiply(c.eta**2, factor, out=s[5])
     for i in range(1, 3):
         stiff[i, :i] = stiff[:i, i]

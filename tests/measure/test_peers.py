@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from rodproof.codegen.measure import peer_c, peers, variants
+from rodproof.codegen.measure import peer_c, peers, timing, variants
 from rodproof.codegen.measure.form import Code, Form, blocks, rows
 from rodproof.codegen.measure.rivals import form_of
 from rodproof.codegen.measure.subjects import subject
@@ -95,3 +96,18 @@ def test_ours_in_other_dress_has_the_same_numbers(function: str, p: float) -> No
         np.testing.assert_allclose(got, want, rtol=1e-13, atol=1e-15 * np.abs(want).max())
     bare = vars(variants._module(variants.BARE, code, given.values))
     assert not {"_balanced", "_within_limit", f"_{function}_plain"} & set(bare)
+
+
+def test_quick_calls_are_warmed_and_slow_ones_run_less(monkeypatch: pytest.MonkeyPatch) -> None:
+    ran: list[str] = []
+    calls = {name: partial(ran.append, name) for name in ("quick", "slow")}
+    takes = {"quick": 10.0, "slow": 2.0 * timing.SLOW_NS}
+
+    def clock(call: partial, count: int) -> float:
+        call()
+        return takes[ran[-1]]
+
+    monkeypatch.setattr(timing, "clock", clock)
+    assert timing.medians(calls, 7, 1) == takes
+    assert ran.count("quick") == 2 + 2 * 7
+    assert ran.count("slow") == 2 + timing.SLOW_ROUNDS
