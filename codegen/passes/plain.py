@@ -81,9 +81,9 @@ EXCESS = Assignment("excess", sp.exp(p / 2 * sp.log(overload)))
 ROOT = Assignment("root", sp.exp(-log1p(excess) / p))
 ROOT_SQUARE = Assignment("root", 1 / sp.sqrt(1 + overload))
 
-#: log(y/gamma) multiplies its own rounding: y up to 8 gamma; and the power stays below span.
+#: log(y/gamma) multiplies its own rounding: y up to 32 gamma; and the power stays below span.
 MOST = 2 * sp.log(span) / p
-BELOW_POWERS = Region("overload", 1 / span, sp.exp(sp.Min(sp.log(64), MOST)))
+BELOW_POWERS = Region("overload", 1 / span, sp.exp(sp.Min(sp.log(1024), MOST)))
 BELOW_SQUARES = Region("overload", 1 / span, span)
 
 WHY = "twice as many operations where nothing is extreme"

@@ -155,6 +155,7 @@ def _plumbing(scene: Scene, *, raising: bool) -> list[str]:
     whole = template.APPLY_FIRST if first else template.APPLY_LAST
     return [
         template.arguments(scene.layout, scene.precision),
+        template.SCRATCH,
         whole.substitute(run=run.substitute(outputs=template.OUTPUTS[scene.layout])),
     ]
 

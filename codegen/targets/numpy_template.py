@@ -11,6 +11,7 @@ IMPORTS = Template("""\
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass$field_import
 $standard_imports
@@ -27,6 +28,7 @@ Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
 ROWS = $rows  # of scratch
+KEPT = threading.local()  # scratch, from call to call
 $limits
 $heads
 """)
@@ -284,6 +286,18 @@ def arguments(layout: str, precision: str) -> str:
     return ARGUMENTS.substitute(places, dtype=DTYPES[precision], alike=alike)
 
 
+SCRATCH = '''\
+def _scratch(size: int, dtype: Any) -> Array:
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
+    length = size + 16  # rows that are a power of two apart would share their places in the cache
+    needed = ROWS * length * dtype.itemsize
+    memory = getattr(KEPT, "memory", None)
+    if memory is None or len(memory) < needed:
+        memory = KEPT.memory = np.empty(needed, np.uint8)
+    rows: Array = memory[:needed].view(dtype).reshape(ROWS, length)
+    return rows[:, :size]
+'''
+
 APPLY_FIRST = Template('''\
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
@@ -304,7 +318,7 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = np.empty((ROWS, size), arrays[0].dtype)
+    scratch = _scratch(size, arrays[0].dtype)
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
@@ -337,7 +351,7 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = np.empty((ROWS, size), arrays[0].dtype)
+    scratch = _scratch(size, arrays[0].dtype)
     taken = [np.empty((len(array), size), array.dtype) for array in given]
     made = [np.empty((*HEADS[name], size), arrays[0].dtype) for name in names]
     with np.errstate(under="ignore"):

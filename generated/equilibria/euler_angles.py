@@ -14,6 +14,7 @@ const-v-3 proved, wstar-gradient proved.
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -32,6 +33,7 @@ Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
 ROWS = 23  # of scratch
+KEPT = threading.local()  # scratch, from call to call
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LEAST = 2.0**-1022  # the smallest normal number, for one point
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
@@ -149,7 +151,7 @@ class Plain:
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
             self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
-            overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
+            overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(1024))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
 
 
@@ -304,6 +306,17 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     return list(given)
 
 
+def _scratch(size: int, dtype: Any) -> Array:
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
+    length = size + 16  # rows that are a power of two apart would share their places in the cache
+    needed = ROWS * length * dtype.itemsize
+    memory = getattr(KEPT, "memory", None)
+    if memory is None or len(memory) < needed:
+        memory = KEPT.memory = np.empty(needed, np.uint8)
+    rows: Array = memory[:needed].view(dtype).reshape(ROWS, length)
+    return rows[:, :size]
+
+
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
@@ -323,7 +336,7 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = np.empty((ROWS, size), arrays[0].dtype)
+    scratch = _scratch(size, arrays[0].dtype)
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))

@@ -32,6 +32,7 @@ Operations a point where nothing is extreme: arithmetic, transcendental, energy 
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -51,6 +52,7 @@ Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
 ROWS = 23  # of scratch
+KEPT = threading.local()  # scratch, from call to call
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
 LEAST = 2.0**-1022  # the smallest normal number, for one point
@@ -262,7 +264,7 @@ class Plain:
             span = tiny**-0.25
             even = all(1 < abs(v) * span < span**2 for v in used)
             self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
-            overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(64))))
+            overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(1024))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
             self.within_q[kind] = q if even else (1.0, 0.0)
@@ -548,6 +550,17 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     return list(given)
 
 
+def _scratch(size: int, dtype: Any) -> Array:
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
+    length = size + 16  # rows that are a power of two apart would share their places in the cache
+    needed = ROWS * length * dtype.itemsize
+    memory = getattr(KEPT, "memory", None)
+    if memory is None or len(memory) < needed:
+        memory = KEPT.memory = np.empty(needed, np.uint8)
+    rows: Array = memory[:needed].view(dtype).reshape(ROWS, length)
+    return rows[:, :size]
+
+
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
@@ -567,7 +580,7 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = np.empty((ROWS, size), arrays[0].dtype)
+    scratch = _scratch(size, arrays[0].dtype)
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))

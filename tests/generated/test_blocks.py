@@ -151,7 +151,7 @@ def test_limit_as_nan_in_any_block() -> None:
 
 
 def test_threads_do_not_meet() -> None:
-    """Scratch belongs to the call."""
+    """Scratch belongs to the thread."""
     module = MODULES["first"]
     cases = [points("compliance", [10.0**k] * 200, "f8", k) for k in range(4)]
     want = [answers(module, "compliance", case) for case in cases]

@@ -109,7 +109,7 @@ def test_it_answers_inside_its_region_alone(own: str, function: str) -> None:
     record = MODULES[own].Constants(**given(own, c))
     low, high = getattr(record.plain, f"within_{quantity}")[np.dtype(float)]
     seen = {**c, **{n: getattr(record, n) for n in given(own, c)}}
-    for inside in (low * 1.01, 1e-20, 1e-3, 0.1, 0.5, min(high, 64) * 0.99):
+    for inside in (low * 1.01, 1e-20, 1e-3, 0.1, 0.5, min(high, 1024) * 0.99):
         assert answers(own, function, point_at(own, function, seen, inside, rng), c)
     for outside in (0.0, low * 0.99, high * 1.01, 1e200, math.inf, math.nan):
         assert not answers(own, function, point_at(own, function, seen, outside, rng), c)
