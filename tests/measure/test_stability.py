@@ -10,8 +10,9 @@ import pytest
 from rodproof.codegen.measure import atlas, spots
 from rodproof.codegen.measure.errors import truth
 from rodproof.codegen.measure.extremes import outcomes
+from rodproof.codegen.measure.form import answers
 from rodproof.codegen.measure.inputs import KINDS, Kind, batches
-from rodproof.codegen.measure.rivals import answers, form_of
+from rodproof.codegen.measure.rivals import form_of
 from rodproof.codegen.measure.subjects import subject, subjects
 
 STABLE = {np.float64: form_of("stable float64"), np.float32: form_of("stable float32")}
