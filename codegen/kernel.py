@@ -15,6 +15,8 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from rodproof.derivations.symbols import CONSTANTS
+
 #: Properties of the number format, filled in by the target: the smallest normal number, and a
 #: number whose exponential is near the largest one. In exact arithmetic they are 0 and infinity.
 tiny = sp.Symbol("tiny", positive=True)
@@ -147,6 +149,12 @@ class Kernel:
             body=tuple(replace(a, expr=a.expr.xreplace(changed)) for a in self.body),
             outputs=tuple(replace(o, expr=o.expr.xreplace(changed)) for o in self.outputs),
         )
+
+    def sizes(self) -> tuple[str, ...]:
+        """The constants, given and derived, whose sizes count for a `Region`: all but p."""
+        raw = {s.name for expr in self.expressions() for s in expr.free_symbols}
+        given = (c.name for c in CONSTANTS if c.name in raw and c.name != "p")
+        return (*given, *(a.name for a in self.constants))
 
     def statements(self) -> tuple[str, ...]:
         """The statements the kernel rests on, each once, in order of use."""

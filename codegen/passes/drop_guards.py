@@ -126,7 +126,7 @@ def alone(kernel: Kernel, plain: Kernel, scene: Scene) -> Kernel | None:
     inside = known.of(quantity.xreplace(multiples))
     bounds = known.of(region.low), known.of(region.high)
     room = known.of(span)
-    sizes = [known.of(a.symbol) for a in plain.constants]
+    sizes = [known.of(symbol(name)) for name in plain.sizes()]
     if not (bounds[0].below(inside) and inside.below(bounds[1])):
         return None
     if not all(_even(size, room) for size in sizes):

@@ -10,7 +10,7 @@ from string import Template
 
 import sympy as sp
 
-from rodproof.codegen.kernel import Kernel
+from rodproof.codegen.kernel import SPAN_POWER, Kernel
 from rodproof.codegen.targets.numpy_body import (
     INDENT,
     Body,
@@ -34,7 +34,7 @@ $exact$values
         used = [v for v in $used if v]
 $regions        self.room: dict[Any, tuple[float, float]] = {}
         for kind, tiny in TINY.items():
-            span = tiny**-0.25
+            span = tiny**-$power
             even = all(1 < abs(v) * span < span**2 for v in used)
             self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
 $bounds
@@ -104,12 +104,12 @@ def plain_record(kernels: tuple[Kernel, ...]) -> str:
     regions = {k.region.quantity: k.region for k in plain if k.region}
     names = [s.name for s in CONSTANTS]
     exact = {s.name for e in derived.values() for s in e.free_symbols}
-    raw = {s.name for k in plain for e in k.expressions() for s in e.free_symbols}
+    sized = {name for kernel in plain for name in kernel.sizes()}
     printer = Printer({n: n for n in (*names, "span")})
     of_record = Printer({n: f"c.{n}" for n in names} | {"span": "span"})
     needed = [n for n in names if n in exact]
     values = [f"self.{n} = _rounded({printer.text(e)})" for n, e in derived.items()]
-    used = [f"c.{n}" for n in names if n in raw and n != "p"]
+    used = [f"c.{n}" for n in names if n in sized]
     bounds = []
     for quantity, region in regions.items():
         low, high = _bound(region.low, of_record), _bound(region.high, of_record)
@@ -117,6 +117,7 @@ def plain_record(kernels: tuple[Kernel, ...]) -> str:
         bounds += [f"self.within_{quantity}[kind] = {quantity} if even else (1.0, 0.0)"]
     own = "vars(self).values()"
     return RECORD.substitute(
+        power=SPAN_POWER,
         exact=_exact(needed),
         values="\n".join(INDENT * 2 + line for line in values),
         used=f"({', '.join(used)}, *{own})" if used else own,

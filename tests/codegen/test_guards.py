@@ -51,6 +51,16 @@ def test_an_undeclared_range_keeps_the_guard(name: str) -> None:
     assert "overflow and underflow of squares" not in dropped(without(name))["strains"]
 
 
+def test_a_plain_kernel_stands_alone_only_for_even_constants() -> None:
+    """gamma is in no derived constant of the loads; as it is it may be far from the others."""
+    narrow = {**RANGES, "p": (1.5, 3.0)}
+    even = replace(KIRCHHOFF, ranges=narrow)
+    wild = replace(KIRCHHOFF, ranges={**narrow, "gamma": (1e-200, 10.0)})
+    for own, beside in ((even, False), (wild, True)):
+        (loads,) = (k for k in generate.kernels(own) if k.name == "loads")
+        assert (loads.plain is not None) == beside
+
+
 def test_the_limit_is_tested_where_the_strains_may_reach_it() -> None:
     wide = replace(KIRCHHOFF, ranges={**RANGES, "u2": (-1.0, 1.0)})
     assert "the strain limit" not in dropped(wide)["loads"]
