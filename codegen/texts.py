@@ -71,6 +71,13 @@ def step_text(step: str, scene: Scene) -> str:
     }[step]
 
 
+def square_text(quantity: str, scene: Scene) -> str:
+    """What the plain bodies start from."""
+    if quantity == "overload":
+        return "Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."
+    return "Q as a sum of squares, and the coupled loads of the linear rod over gamma."
+
+
 def shape_text(head: tuple[int, ...], layout: str) -> str:
     """A leading (or last) shape with the trailing one: ``(3, ...)``."""
     entries = [str(length) for length in head]

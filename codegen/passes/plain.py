@@ -36,7 +36,9 @@ u1, u2, u3, v1, v2, _ = STRAINS
 overload, excess, root, q = map(symbol, ("overload", "excess", "root", "q"))
 bend, turn, shear = map(symbol, ("bend", "turn", "shear"))
 extension, growth = symbol("extension"), symbol("growth")
-r = tuple(symbol(f"r{i}") for i in range(1, 7))  # K eps, the linear rod's loads over gamma
+torque, hard = symbol("torque"), symbol("hard")
+r1, r2, r4, r5, r6 = map(symbol, ("r1", "r2", "r4", "r5", "r6"))
+r = (r1, r2, torque, r4, r5, r6)  # K eps, the linear rod's loads over gamma
 h = tuple(symbol(f"h{i}") for i in range(1, 7))  # the loads over gamma
 
 
@@ -113,17 +115,17 @@ def _strains_and_gap(square: bool) -> Plain:
 
 def _stiffness_at_loads(square: bool) -> Plain:
     """factor (K + excess (m, n) (m, n)^T/y^2), as (y/gamma)^p is the weight of the direction."""
-    hard = gamma * (sp.sqrt(1 + overload) if square else sp.exp(log1p(excess) / p))
+    radial = gamma * (sp.sqrt(1 + overload) if square else sp.exp(log1p(excess) / p))
     ratio = sp.S.One if square else excess / overload
     definitions = (
         *OVERLOAD,
         *(() if square else (EXCESS,)),
-        Assignment("hard", hard),
-        Assignment("lift", ratio * symbol("hard")),
+        Assignment("hard", radial),
+        Assignment("lift", ratio * hard),
         *(Assignment(k.name, symbol("per_gamma") * row) for k, row in zip(h, LOADS, strict=True)),
     )
     dyad = Dyad("stiff", "lift", tuple(k.name for k in h))
-    rule = _rank_one("stiffness at loads", symbol("hard"), dyad, definitions, LOAD_CONSTANTS)
+    rule = _rank_one("stiffness at loads", dyad, definitions, LOAD_CONSTANTS)
     return Plain(rule, BELOW_SQUARES if square else BELOW_POWERS)
 
 
@@ -141,8 +143,8 @@ STRAIN_CONSTANTS = (
 )
 
 
-def _form(torque: sp.Symbol) -> tuple[tuple[Assignment, ...], Pair, sp.Expr]:
-    """Definitions, Q in squares, and the tension; ``torque`` and it are K's coupled rows."""
+def _form() -> tuple[tuple[Assignment, ...], Pair, sp.Expr]:
+    """Definitions, Q in squares, and the tension; the torque and it are K's coupled rows."""
     pull = symbol("slack_pull")
     definitions = (
         Assignment(torque.name, symbol("turning") * u3 + iota * stretch),
@@ -171,8 +173,7 @@ ABOVE_SQUARES = Region("q", 1 / span, NEAR)
 
 
 def _loads(square: bool) -> Plain:
-    hard, torque = symbol("hard"), symbol("torque")
-    form, squares, tension = _form(torque)
+    form, squares, tension = _form()
     plain = (bend * u1, bend * u2, hard * torque, shear * v1, shear * v2, hard * tension)
     pairs = tuple((factor * row, new) for row, new in zip(s, plain, strict=True))
     stiff = (
@@ -186,9 +187,8 @@ def _loads(square: bool) -> Plain:
 
 def _stiffness(square: bool) -> Plain:
     """factor (K + growth K eps (K eps)^T/Q)."""
-    hard = symbol("hard")
     weight = hard / symbol("left") if square else growth / q * hard
-    form, squares, tension = _form(r[2])
+    form, squares, tension = _form()
     definitions = (
         *form,
         *(LEFT if square else GROWTH),
@@ -200,7 +200,7 @@ def _stiffness(square: bool) -> Plain:
         Assignment("r6", tension),
     )
     dyad = Dyad("stiff", "steep", tuple(k.name for k in r))
-    rule = _rank_one("stiffness", hard, dyad, definitions, STRAIN_CONSTANTS)
+    rule = _rank_one("stiffness", dyad, definitions, STRAIN_CONSTANTS)
     rule = replace(rule, pairs=(squares, *rule.pairs))
     return Plain(rule, ABOVE_SQUARES if square else ABOVE_POWERS)
 
@@ -208,9 +208,9 @@ def _stiffness(square: bool) -> Plain:
 def _loads_and_stiffness(square: bool) -> Plain:
     """The loads as they are by themselves, to the bit."""
     loads, stiffness = _loads(square).rule, _stiffness(square)
-    (_, *rows), hard = loads.pairs, symbol("hard")
-    coupled = {symbol("torque"): r[2], hard * _form(r[2])[2]: hard * r[5]}
-    pairs = tuple((before, after.xreplace(coupled).xreplace(coupled)) for before, after in rows)
+    _, *rows = loads.pairs
+    coupled = {hard * _form()[2]: hard * r6}
+    pairs = tuple((before, after.xreplace(coupled)) for before, after in rows)
     radial = {hard * symbol("bending"): bend, hard * symbol("shearing"): shear}
     radii = tuple(a for a in loads.definitions if a.name in ("bend", "shear"))
     whole = replace(
@@ -223,7 +223,6 @@ def _loads_and_stiffness(square: bool) -> Plain:
 
 def _rank_one(
     name: str,
-    hard: sp.Expr,
     dyad: Dyad,
     definitions: tuple[Assignment, ...],
     constants: tuple[Assignment, ...],

@@ -1,28 +1,42 @@
-"""Prints plain kernels: a flat body, one operation a line, and the constants they take.
+"""Prints plain kernels: bodies in place, one operation a line, and the constants they take.
 
 A plain body answers False, with nothing written to the results, where its kernel's region does
-not hold all points of the block.
+not hold all points of the block. Its temporaries are rows of scratch that stay in the cache.
 """
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from string import Template
 
 import sympy as sp
 
-from rodproof.codegen.kernel import SPAN_POWER, Kernel
+from rodproof.codegen.kernel import (
+    SPAN_POWER,
+    Assignment,
+    Kernel,
+    KernelError,
+    Output,
+    symbol,
+)
+from rodproof.codegen.scene import Scene
+from rodproof.codegen.targets.calls import Call, calls
+from rodproof.codegen.targets.lines import INDENT
 from rodproof.codegen.targets.numpy_body import (
-    INDENT,
-    Body,
-    arranged,
+    beside,
     heading,
+    matrix_lines,
     packed_size,
     place_of,
     rows_name,
+    spread,
+    vector_places,
 )
 from rodproof.codegen.targets.printer import Printer, wrapped
-from rodproof.codegen.targets.rows import print_calls
-from rodproof.codegen.texts import FunctionText
+from rodproof.codegen.targets.rows import Printed, last_reads, print_calls
+from rodproof.codegen.texts import FunctionText, square_text
 from rodproof.derivations.symbols import CONSTANTS
 
 RECORD = Template('''\
@@ -38,17 +52,47 @@ $regions        self.room: dict[Any, tuple[float, float]] = {}
             even = all(1 < abs(v) * span < span**2 for v in used)
             self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
 $bounds
-
+$points
 
 def _rounded(ratio: Fraction) -> float:
     """The nearest float; nan far from the ordinary."""
     return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 ''')
 
-TEST = """\
-low, high = k.within_{quantity}[{quantity}.dtype]
-if not (low < {quantity}.min() and {quantity}.max() < high):
-    return False"""
+SCRATCH = '''\
+def _scratch(count: int, like: Array) -> Array:
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
+    length = like.size + 16  # rows a power of two apart would share their places in the cache
+    needed = count * length * like.itemsize
+    memory = getattr(KEPT, "memory", None)
+    if memory is None or len(memory) < needed:
+        memory = KEPT.memory = np.empty(needed, np.uint8)
+    rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
+    return rows[:, : like.size]
+'''
+
+INSIDE = '''\
+def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
+    """Whether all of it lies between the bounds for its type; nan does not."""
+    low, high = within[square.dtype]
+    return bool(low < square[square.argmin()] and square[square.argmax()] < high)
+'''
+
+
+@dataclass(frozen=True)
+class Square:
+    """What plain kernels share: the assignments down to their region's quantity, as printed.
+
+    ``results`` are what the bodies take from it, the quantity last; ``first`` is the row of
+    scratch from which on bodies may keep a vector.
+    """
+
+    quantity: str
+    inputs: tuple[str, ...]
+    body: tuple[Assignment, ...]
+    results: tuple[str, ...]
+    printed: Printed
+    first: int
 
 
 def plain_kernels(kernels: tuple[Kernel, ...]) -> tuple[Kernel, ...]:
@@ -56,47 +100,169 @@ def plain_kernels(kernels: tuple[Kernel, ...]) -> tuple[Kernel, ...]:
     return tuple(kernel.plain for kernel in kernels if kernel.plain)
 
 
-def plain_body(kernel: Kernel, text: FunctionText, constants: dict[str, str]) -> Body:
-    """The flat body of a plain kernel; ``constants`` says how they are written.
+def in_place(kernels: tuple[Kernel, ...]) -> bool:
+    """Whether a body works in rows of scratch: that of a plain kernel, beside another or not."""
+    return any(kernel.plain or alone(kernel) for kernel in kernels)
+
+
+def alone(kernel: Kernel) -> bool:
+    """Whether the kernel is plain, and by itself."""
+    return not any(a.step for a in kernel.body)
+
+
+def squares_of(kernels: tuple[Kernel, ...], constants: dict[str, str]) -> dict[str, Square]:
+    """The shared beginnings of the plain kernels, by the quantity of their regions."""
+    plain = plain_kernels(kernels)
+    quantities = dict.fromkeys(k.region.quantity for k in plain if k.region)
+    return {name: _square(name, plain, constants) for name in quantities}
+
+
+def _square(quantity: str, plain: tuple[Kernel, ...], constants: dict[str, str]) -> Square:
+    users = [k for k in plain if k.region and k.region.quantity == quantity]
+    needed = [_down_to(quantity, kernel) for kernel in users]
+    body = needed[0]
+    if any({*other} != {*body} for other in needed):
+        raise KernelError(f"the plain kernels disagree on {quantity}")
+    made = {a.name for a in body}
+    later = [
+        e
+        for kernel in users
+        for e in (
+            *(a.expr for a in kernel.body if a.name not in made),
+            *(o.expr for o in kernel.outputs),
+        )
+    ]
+    used = {s.name for e in later for s in e.free_symbols} & made
+    used |= {name for k in users if k.dyad for name in k.dyad.vector if name in made}
+    results = (*(a.name for a in body if a.name in used and a.name != quantity), quantity)
+    vectors = [k.dyad.vector for k in users if k.dyad]
+    if any(vector != vectors[0] for vector in vectors):
+        raise KernelError(f"the plain kernels disagree on the vector beside {quantity}")
+    work = [c for a in body for c in calls(a.name, a.expr, _printer(users[0], constants))]
+    first = print_calls(work, {}, kept=results).rows
+    fixed = {n: first + k for vector in vectors[:1] for k, n in enumerate(vector) if n in made}
+    printed = print_calls(work, {}, fixed=fixed, kept=results)
+    return Square(quantity, users[0].inputs, body, results, printed, first)
+
+
+def _down_to(quantity: str, kernel: Kernel) -> tuple[Assignment, ...]:
+    """The assignments that the quantity needs, in order."""
+    wanted, body = {quantity}, list[Assignment]()
+    for a in reversed(kernel.body):
+        if a.name in wanted:
+            body.insert(0, a)
+            wanted |= {s.name for s in a.expr.free_symbols}
+    return tuple(body)
+
+
+def square_function(square: Square, scene: Scene) -> str:
+    """The shared beginning as a private function, in place."""
+    comma = "," if len(square.inputs) == 1 else ""
+    results = ", ".join(square.results)
+    kind = "Rows" if len(square.results) > 1 else "Array"
+    rows = rows_name(square.inputs)
+    lines = [f"def _{square.quantity}({rows}: Rows, c: Constants, s: Rows) -> {kind}:"]
+    lines += [f'{INDENT}"""{square_text(square.quantity, scene)}"""', f"{INDENT}k = c.plain"]
+    lines += [f"{INDENT}{', '.join(square.inputs)}{comma} = {rows}"]
+    lines += [INDENT + line for line in square.printed.lines]
+    return "\n".join([*lines, f"{INDENT}return {results}"])
+
+
+def _printer(kernel: Kernel, constants: dict[str, str]) -> Printer:
+    """How numbers are written: constants of a kernel beside another have a record of their own."""
+    own = {a.name: f"k.{a.name}" for a in kernel.constants} if kernel.region else {}
+    return Printer({**constants, **own})
+
+
+def plain_body(
+    kernel: Kernel, text: FunctionText, constants: dict[str, str], squares: Mapping[str, Square]
+) -> str:
+    """The body of a plain kernel, one operation a line; ``constants`` says how they are written.
 
     Beside another kernel it is told apart by its region, and by what it is called.
     """
     region, dyad = kernel.region, kernel.dyad
-    own = {a.name: f"k.{a.name}" for a in kernel.constants} if region else {}
-    printer = Printer({**constants, **own})
     packed = packed_size(kernel, text)
-    after = {region.quantity: TEST.format(quantity=region.quantity)} if region else {}
-    work = arranged(kernel, printer, packed, set(), after)
+    square = squares[region.quantity] if region else None
+    made = {a.name for a in square.body} if square else set[str]()
+    work = _arranged(kernel, _printer(kernel, constants), packed, made)
+    held = {n: r for n, r in square.printed.row.items() if n in last_reads(work)} if square else {}
+    vector = {n: place for n, place in vector_places(kernel).items() if n not in made}
     places = {place_of(o, packed): place_of(o, packed) for o in kernel.outputs}
-    vector = {name: f"{name[0]}[{k}]" for k, name in enumerate(dyad.vector)} if dyad else {}
-    fixed = {name: k for k, name in enumerate(vector)}
+    first = square.first if square else 0
+    fixed = {name: first + k for k, name in enumerate(dyad.vector)} if dyad else {}
     opened = [place_of(o, packed) for o in kernel.outputs if dyad and o.array == dyad.array]
-    printed = print_calls(work, {}, places=places | vector, fixed=fixed, opened=opened)
+    printed = print_calls(work, held, places=places | vector, fixed=fixed, opened=opened)
+    count = max(printed.rows, square.printed.rows if square else 0)
+    rows = rows_name(kernel.inputs)
+    own = " ".join(printed.lines)
+    used = [name if re.search(rf"\b{name}\b", own) else "_" for name in kernel.inputs]
     comma = "," if len(kernel.inputs) == 1 else ""
-    lines = heading(kernel, f"{kernel.name}_plain", text, "bool") if region else []
-    lines = lines or heading(kernel, kernel.name, text, "None")
+    lines = [f"{', '.join(used)}{comma} = {rows}"] if {*used} != {"_"} else []
+    lines += [f"work = _scratch({count}, {rows}[0])", "s = [*work]"]
+    lines += [f"{dyad.vector[0][0]} = work[{first}:{first + len(dyad.vector)}]"] if dyad else []
+    if square:
+        taken = [name if name in (*held, square.quantity) else "_" for name in square.results]
+        left = f"*_, {taken[-1]}" if len(taken) > 1 and {*taken[:-1]} == {"_"} else ", ".join(taken)
+        lines = ["k = c.plain", *lines, 'with np.errstate(over="ignore", invalid="ignore"):']
+        lines += [f"{INDENT}{left} = _{square.quantity}({rows}, c, s)"]
+        lines += [f"if not _inside({square.quantity}, k.within_{square.quantity}):"]
+        lines += [f"{INDENT}return False"]
+    lines += [*printed.lines, *(["return True"] if region else [])]
+    opening = heading(kernel, f"{kernel.name}_plain", text, "bool") if region else []
+    opening = opening or heading(kernel, kernel.name, text, "None")
     words = f"`_{kernel.name}` where nothing is extreme; else False." if region else text.equation
-    lines += [f'{INDENT}"""{words}"""']
-    lines += [f"{INDENT}k = c.plain"] if region else []
-    lines += [f"{INDENT}{', '.join(kernel.inputs)}{comma} = {rows_name(kernel.inputs)}"]
-    lines += [f"{INDENT}s = [*work[:{printed.rows}]]"]
-    lines += [f"{INDENT}{dyad.vector[0][0]} = work[:{len(vector)}]"] if dyad else []
-    lines += [INDENT + line for line in _guarded(printed.lines)]
-    lines += [f"{INDENT}return True"] if region else []
-    return Body("\n".join(lines), printed.rows)
+    return "\n".join([*opening, f'{INDENT}"""{words}"""', *(INDENT + line for line in lines)])
 
 
-def _guarded(lines: tuple[str, ...]) -> list[str]:
-    """What comes before the test of the region may overflow: the test answers for it."""
-    tests = [at for at, line in enumerate(lines) if line.startswith("low, high = ")]
-    if not tests:
-        return [*lines]
-    quiet = ['with np.errstate(over="ignore", invalid="ignore"):']
-    return [*quiet, *(INDENT + line for line in lines[: tests[0]]), *lines[tests[0] :]]
+def _arranged(kernel: Kernel, printer: Printer, packed: int, known: set[str]) -> list[Call]:
+    """What the body computes: each output as soon as it can be, the dyad last.
+
+    What is ``known`` is there already.
+    """
+    waiting = {a.name: a for a in kernel.body if a.name not in known}
+    work = list[Call]()
+
+    def settle(exprs: Iterable[sp.Expr]) -> None:
+        wanted = {s.name for expr in exprs for s in expr.free_symbols} & set(waiting)
+        for a in [a for a in kernel.body if a.name in wanted]:
+            if a.name in waiting:
+                settle([a.expr])
+                del waiting[a.name]
+                work.extend(calls(a.name, a.expr, printer))
+
+    dyad = kernel.dyad
+    for o in (o for o in kernel.outputs if not dyad or o.array != dyad.array):
+        settle([o.expr])
+        work.extend(calls(place_of(o, packed), o.expr, printer))
+    if dyad:
+        settle(map(symbol, (dyad.weight, *dyad.vector)))
+        reads = frozenset({dyad.weight, *dyad.vector})
+        work += [Call("", "", (line,), reads) for line in spread(kernel)]
+        for extra, entries in beside(kernel).items():
+            settle([extra])
+            work.extend(_added(extra, entries, printer, packed))
+    return work + [Call("", "", (line,), frozenset()) for line in matrix_lines(kernel, packed)]
 
 
-def plain_record(kernels: tuple[Kernel, ...]) -> str:
-    """The class of the plain kernels' constants, and where they hold; empty without any."""
+def _added(
+    extra: sp.Expr, entries: list[tuple[Output, bool]], printer: Printer, packed: int
+) -> list[Call]:
+    """The calls that put a value beside the dyad, or in place of it."""
+    (first, added), *_ = entries
+    if not added:
+        return list(calls(place_of(first, packed), extra, printer))
+    slot = str(extra) if extra.is_Symbol else f"{place_of(first, packed)}.0"
+    places = [place_of(o, packed) for o, _ in entries]
+    work = [] if extra.is_Symbol else list(calls(slot, extra, printer))
+    return work + [Call(p, "np.add", (p, slot), frozenset({slot, p})) for p in places]
+
+
+def plain_record(kernels: tuple[Kernel, ...], points: list[str]) -> str:
+    """The class of the plain kernels' constants, and where they hold; empty without any.
+
+    ``points`` are lines that collect the constants for one point.
+    """
     plain = plain_kernels(kernels)
     if not plain:
         return ""
@@ -125,6 +291,7 @@ def plain_record(kernels: tuple[Kernel, ...]) -> str:
             f"{INDENT * 2}self.within_{q}: dict[Any, tuple[float, float]] = {{}}\n" for q in regions
         ),
         bounds="\n".join(INDENT * 3 + line for line in bounds),
+        points="".join(f"{line}\n" for line in points),
     )
 
 

@@ -12,6 +12,7 @@ from rodproof.codegen.kernel import Assignment, Kernel, symbol
 from rodproof.codegen.passes.specialise import drop_dead
 from rodproof.codegen.scene import CONSTANT_NAMES, Scene
 from rodproof.codegen.targets import scalar
+from rodproof.codegen.targets.lines import filled
 from rodproof.codegen.targets.printer import Printer
 from rodproof.codegen.texts import FunctionText
 
@@ -144,36 +145,59 @@ def _hoisted(kernel: Kernel) -> Kernel:
     return scalar.hoisted(drop_dead(replace(kernel.plain, body=tuple(body), outputs=outputs)))
 
 
-def point_constants(kernel: Kernel) -> str:
-    """The property of the record that hands these numbers out."""
+def point_constants(kernels: tuple[Kernel, ...]) -> list[str]:
+    """The properties of the constants that hand these numbers out, without a plain kernel."""
+    return [
+        "\n".join(
+            [
+                f"{INDENT}@cached_property",
+                f"{INDENT}def of_{kernel.name}(self) -> tuple[float, ...]:",
+                f'{INDENT * 2}"""What `{kernel.name}` of one point takes."""',
+                *_tuple("return ", _values(kernel, "self")),
+            ]
+        )
+        for kernel in kernels
+        if not kernel.plain and not is_part(kernel, kernels)
+    ]
+
+
+def point_values(kernels: tuple[Kernel, ...]) -> list[str]:
+    """The lines of the plain kernels' constants that collect these numbers."""
+    return [
+        line
+        for kernel in kernels
+        if kernel.plain and not is_part(kernel, kernels)
+        for line in _tuple(f"self.of_{kernel.name} = ", _values(kernel, "c"))
+    ]
+
+
+def _tuple(left: str, values: list[str]) -> list[str]:
+    line = f"{INDENT * 2}{left}({', '.join(values)}{',' * (len(values) == 1)})"
+    if len(line) <= WIDTH:
+        return [line]
+    return [f"{INDENT * 2}{left}(", *filled(values, INDENT * 3), f"{INDENT * 2})"]
+
+
+def _values(kernel: Kernel, record: str) -> list[str]:
+    """The numbers that one point takes, as fields of the record, or of what is plain."""
     hoisted, plain = _hoisted(kernel), kernel.plain
-    fields = {name: f"self.{name}" for name in CONSTANT_NAMES}
-    fields |= {
-        a.name: f"self.{'plain.' if plain else ''}{a.name}" for a in (plain or kernel).constants
-    }
+    own = "self" if plain else record
+    fields = {name: f"{record}.{name}" for name in CONSTANT_NAMES}
+    fields |= {a.name: f"{own}.{a.name}" for a in (plain or kernel).constants}
     printer = Printer(fields)
     made = {a.name: printer.text(a.expr) for a in hoisted.constants if a.name not in fields}
     values = [(fields | made)[name] for name in constants_taken(kernel)]
-    values += ["*self.plain.room[DOUBLE]"] if plain else []
-    return "\n".join(
-        [
-            f"{INDENT}@cached_property",
-            f"{INDENT}def of_{kernel.name}(self) -> tuple[float, ...]:",
-            f'{INDENT * 2}"""What `{kernel.name}` of one point takes."""',
-            f"{INDENT * 2}return (",
-            *scalar.filled(values, INDENT * 3),
-            f"{INDENT * 2})",
-        ]
-    )
+    return values + (["*self.room[DOUBLE]"] if plain else [])
 
 
 def _taken(kernel: Kernel) -> list[str]:
     """The line that unpacks them."""
     names = [*constants_taken(kernel), *(("low", "high") if kernel.plain else ())]
-    line = f"{INDENT}{', '.join(names)} = c.of_{kernel.name}"
+    source = f"c.plain.of_{kernel.name}" if kernel.plain else f"c.of_{kernel.name}"
+    line = f"{INDENT}{', '.join(names)} = {source}"
     if len(line) <= WIDTH:
         return [line]
-    return [f"{INDENT}(", *scalar.filled(names, INDENT * 2), f"{INDENT}) = c.of_{kernel.name}"]
+    return [f"{INDENT}(", *filled(names, INDENT * 2), f"{INDENT}) = {source}"]
 
 
 def _guards(kernel: Kernel) -> dict[str, list[str]]:

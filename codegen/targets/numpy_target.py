@@ -17,12 +17,16 @@ from rodproof.codegen.targets import numpy_gauge as gauge
 from rodproof.codegen.targets import numpy_point as one
 from rodproof.codegen.targets import numpy_template as template
 from rodproof.codegen.targets.numpy_body import (
-    Body,
+    MIRROR,
+    SPREAD,
+    SPREAD_PACKED,
+    spelling,
+)
+from rodproof.codegen.targets.numpy_careful import (
     Step,
-    body,
+    careful_body,
     form_again,
     handed,
-    spelling,
     step_function,
     steps_of,
 )
@@ -34,7 +38,18 @@ from rodproof.codegen.targets.numpy_constants import (
     used_constants,
 )
 from rodproof.codegen.targets.numpy_header import header
-from rodproof.codegen.targets.numpy_plain import plain_body, plain_kernels, plain_record
+from rodproof.codegen.targets.numpy_plain import (
+    INSIDE,
+    SCRATCH,
+    Square,
+    alone,
+    in_place,
+    plain_body,
+    plain_kernels,
+    plain_record,
+    square_function,
+    squares_of,
+)
 from rodproof.codegen.targets.printer import Printer, wrapped
 from rodproof.codegen.texts import FunctionText, function_text
 
@@ -46,22 +61,18 @@ def print_module(
 ) -> str:
     """The module's text; ``verdicts`` adds a verdict to each statement of the header."""
     words = {kernel.name: function_text(kernel, scene) for kernel in kernels}
-    printer = Printer(spelling(kernels))
-    steps = steps_of(kernels, printer)
     named = spelling(kernels)
-    points = {k.name: [one.point(k, words[k.name], scene, named, kernels)] for k in kernels}
-    needed = [one.point_constants(k) for k in kernels if not one.is_part(k, kernels)]
-    bodies = {k.name: _bodies(k, steps, printer, words[k.name], named) for k in kernels}
-    rows = max(b.rows for several in bodies.values() for b in several)
+    printer = Printer(named)
+    steps, squares = steps_of(kernels, printer), squares_of(kernels, named)
+    points = {k.name: one.point(k, words[k.name], scene, named, kernels) for k in kernels}
+    bodies = {k.name: _bodies(k, steps, squares, words[k.name], named) for k in kernels}
     limited = [kernel for kernel in kernels if kernel.limit]
     raising = bool(limited) and scene.at_limit == "raise"
     parts = [
-        header(scene, kernels, verdicts or {})
-        + "\n\n"
-        + _imports(scene, kernels, words, rows, points),
-        print_constants(scene, kernels, needed),
-        *filter(None, [plain_record(kernels)]),
-        *(step_function(step, scene) for step in steps.values()),
+        header(scene, kernels, verdicts or {}) + "\n\n" + _imports(scene, kernels, words, points),
+        print_constants(scene, kernels, one.point_constants(kernels)),
+        *filter(None, [plain_record(kernels, one.point_values(kernels))]),
+        *(step_function(step, scene, printer) for step in steps.values()),
     ]
     gauges = {handed(kernel)[1] for kernel in kernels if kernel.gauge}
     parts += [gauge.RESCALED] if gauges else []
@@ -70,43 +81,51 @@ def print_module(
     if limited:
         parts.append(template.RAISE if raising else template.NAN)
     if raising:
-        parts.append(_past_limit(limited[0], steps, printer))
-    parts += [*_plumbing(scene, raising=raising), one.EXTREME, one.ONE]
+        parts.append(_past_limit(limited[0], steps))
+    parts += _plumbing(scene, kernels, raising=raising)
+    parts += [square_function(square, scene) for square in squares.values()]
+    parts += _matrices(scene, bodies)
     default = " = ROD" if all_have_values(scene, kernels) else ""
     for kernel in kernels:
-        text = words[kernel.name]
-        parts += [*(b.text for b in bodies[kernel.name]), *points.get(kernel.name, [])]
-        parts.append(_public(kernel, text, default))
+        parts += [*bodies[kernel.name], points[kernel.name]]
+        parts.append(_public(kernel, words[kernel.name], default))
     return "\n\n\n".join(part.strip("\n") for part in parts) + "\n"
 
 
 def _bodies(
     kernel: Kernel,
-    steps: Mapping[str, Step],
-    printer: Printer,
+    steps: dict[str, Step],
+    squares: Mapping[str, Square],
     text: FunctionText,
     named: dict[str, str],
-) -> list[Body]:
+) -> list[str]:
     """The private functions of a kernel: a plain one, and one that always holds."""
-    if not any(a.step for a in kernel.body):  # plain, and by itself
-        return [plain_body(kernel, text, named)]
-    plain = [plain_body(kernel.plain, text, named)] if kernel.plain else []
-    return [*plain, body(kernel, dict(steps), printer, text)]
+    if alone(kernel):
+        return [plain_body(kernel, text, named, squares)]
+    plain = [plain_body(kernel.plain, text, named, squares)] if kernel.plain else []
+    return [*plain, careful_body(kernel, steps, named, text)]
+
+
+def _matrices(scene: Scene, bodies: Mapping[str, list[str]]) -> list[str]:
+    """What the bodies call to fill matrices."""
+    text = "".join(body for several in bodies.values() for body in several)
+    spread = SPREAD_PACKED if scene.matrix == "packed" else SPREAD
+    found = [spread] if " _spread(" in text else []
+    return [*found, MIRROR] if " _mirror(" in text else found
 
 
 def _imports(
     scene: Scene,
     kernels: tuple[Kernel, ...],
     words: Mapping[str, FunctionText],
-    rows: int,
-    points: Mapping[str, list[str]],
+    points: Mapping[str, str],
 ) -> str:
     """Imports, names of types, and the tables that the functions look things up in."""
     derived, plain = derived_constants(kernels), plain_kernels(kernels)
     heads = {n: h for text in words.values() for n, h in (text.inputs | text.outputs).items()}
     standard = ["from fractions import Fraction"] if derived or plain else []
     standard += ["from functools import cached_property"]
-    single = "".join(text for texts in points.values() for text in texts)
+    single = "".join(points.values())
     single += one.WORK_SHARE if needs_work_share(kernels) else ""
     functions = [name for name in one.FUNCTIONS if re.search(rf"(?<!\w){name}\(", single)]
     standard += [f"from math import {', '.join(functions)}"] if functions else []
@@ -122,7 +141,8 @@ def _imports(
     several = sorted({len(text.outputs) for text in words.values()} - {1})
     kinds = {2: "Pair = tuple[Array, Array]", 3: "Triple = tuple[Array, Array, Array]"}
     text = template.IMPORTS.substitute(
-        rows=rows,
+        threading="import threading" if in_place(kernels) else "$",
+        kept="KEPT = threading.local()  # scratch, from call to call" if in_place(kernels) else "$",
         field_import=", field"
         if derived or set(scene.fixed) & set(used_constants(kernels))
         else "",
@@ -148,21 +168,24 @@ def _table(name: str, entries: Mapping[str, str]) -> str:
     return "\n".join([f"{name} = {{", *(line.rstrip() for line in lines), "}"])
 
 
-def _plumbing(scene: Scene, *, raising: bool) -> list[str]:
+def _plumbing(scene: Scene, kernels: tuple[Kernel, ...], *, raising: bool) -> list[str]:
     """The functions that take arrays in, run a body over blocks, and hand results out."""
     first = scene.layout == "first"
     run = template.RUN_RAISE if raising else template.RUN
     whole = template.APPLY_FIRST if first else template.APPLY_LAST
     return [
         template.arguments(scene.layout, scene.precision),
-        template.SCRATCH,
         whole.substitute(run=run.substitute(outputs=template.OUTPUTS[scene.layout])),
+        one.EXTREME,
+        one.ONE,
+        *([SCRATCH] if in_place(kernels) else []),
+        *([INSIDE] if plain_kernels(kernels) else []),
     ]
 
 
-def _past_limit(kernel: Kernel, steps: dict[str, Step], printer: Printer) -> str:
+def _past_limit(kernel: Kernel, steps: dict[str, Step]) -> str:
     assert kernel.limit is not None
-    lines = form_again(kernel, steps, printer)
+    lines = form_again(kernel, steps)
     return template.PAST_LIMIT.substitute(reduce="\n".join(lines), sentence=kernel.limit.sentence)
 
 

@@ -11,7 +11,7 @@ IMPORTS = Template("""\
 from __future__ import annotations
 
 import math
-import threading
+$threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass$field_import
 $standard_imports
@@ -27,8 +27,7 @@ Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
 Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
-ROWS = $rows  # of scratch
-KEPT = threading.local()  # scratch, from call to call
+$kept
 $limits
 $heads
 """)
@@ -286,18 +285,6 @@ def arguments(layout: str, precision: str) -> str:
     return ARGUMENTS.substitute(places, dtype=DTYPES[precision], alike=alike)
 
 
-SCRATCH = '''\
-def _scratch(size: int, dtype: Any) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = size + 16  # rows that are a power of two apart would share their places in the cache
-    needed = ROWS * length * dtype.itemsize
-    memory = getattr(KEPT, "memory", None)
-    if memory is None or len(memory) < needed:
-        memory = KEPT.memory = np.empty(needed, np.uint8)
-    rows: Array = memory[:needed].view(dtype).reshape(ROWS, length)
-    return rows[:, :size]
-'''
-
 APPLY_FIRST = Template('''\
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
@@ -318,11 +305,9 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = _scratch(size, arrays[0].dtype)
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            work = scratch[:, : part.stop - start]
             rows = [row for a in given for row in a[:, part]]
 $run
     if not direct:
@@ -351,13 +336,11 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = _scratch(size, arrays[0].dtype)
     taken = [np.empty((len(array), size), array.dtype) for array in given]
     made = [np.empty((*HEADS[name], size), arrays[0].dtype) for name in names]
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            work = scratch[:, : part.stop - start]
             rows = [row for block in taken for row in block[:, : part.stop - start]]
             for row, values in zip(rows, (v for a in given for v in a[:, part]), strict=True):
                 row[...] = values
@@ -378,9 +361,9 @@ $run
 #: The call of the body for each policy at the limit and layout, by how an output is written to.
 RUN_RAISE = Template("""\
             try:
-                body(rows, c, work, *$outputs)
+                body(rows, c, *$outputs)
             except _PastLimit:
                 raise _past_limit([row for a in given for row in a], c, shape) from None""")
 RUN = Template("""\
-            body(rows, c, work, *$outputs)""")
+            body(rows, c, *$outputs)""")
 OUTPUTS = {"first": "(array[..., part] for array in flat)", "last": "flat"}

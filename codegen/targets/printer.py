@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
+from rodproof.codegen.kernel import Assignment
 from rodproof.codegen.primitives import WorkShare
 
 FUNCTIONS: dict[type, str] = {
@@ -24,11 +25,19 @@ class Printer:
     """Text of an expression, with ``spelling`` for symbols that are not written as their name.
 
     Symbols in ``spelling`` are scalars; products are printed with them first, so that NumPy
-    multiplies scalars before arrays. Expressions other than those of the kernels raise TypeError.
+    multiplies scalars before arrays. ``places`` are names of arrays that are written as entries
+    of others. Expressions other than those of the kernels raise TypeError.
     """
 
-    def __init__(self, spelling: Mapping[str, str]) -> None:
+    def __init__(
+        self, spelling: Mapping[str, str], places: Mapping[str, str] | None = None
+    ) -> None:
         self.spelling = spelling
+        self.places = places or {}
+
+    def name(self, a: Assignment) -> str:
+        """What stands on the left of the assignment."""
+        return self.places.get(a.name, a.name)
 
     def text(self, expr: sp.Expr, tight: int = SUM) -> str:
         """The expression, in parentheses if it binds less than ``tight``."""
@@ -64,7 +73,8 @@ class Printer:
 
     def _print(self, expr: sp.Expr) -> tuple[str, int]:
         if expr.is_Symbol:
-            return self.spelling.get(expr.name, expr.name), ATOM
+            known = self.places.get(expr.name, expr.name)
+            return self.spelling.get(expr.name, known), ATOM
         if expr.is_Integer:
             if expr > 10**6 and expr & (expr - 1) == 0:
                 return f"2**{int(expr).bit_length() - 1}", POWER

@@ -6,7 +6,6 @@ how a power is written, and whether the scale of the gauge is one or an argument
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -16,6 +15,7 @@ from sympy.codegen.cfunctions import expm1, log1p
 from rodproof.codegen.kernel import Assignment, Kernel, Output, log_max, symbol, tiny
 from rodproof.codegen.passes.share import drop_aliases
 from rodproof.codegen.primitives import WorkShare
+from rodproof.codegen.targets.lines import filled, grouped
 from rodproof.codegen.targets.printer import ATOM, POWER, PRODUCT, Printer, wrapped
 from rodproof.derivations.symbols import CONSTANTS
 
@@ -164,16 +164,6 @@ def returned(answer: Sequence[str], more: str = "") -> list[str]:
     return [*lines, f"{INDENT * 2}{more},", f"{INDENT})"]
 
 
-def filled(pieces: Sequence[str], indent: str) -> list[str]:
-    """The pieces with commas, on as few lines as hold them."""
-    lines = [""]
-    for piece in pieces:
-        if len(indent + lines[-1] + piece) + 2 > WIDTH:
-            lines.append("")
-        lines[-1] += f"{' ' * bool(lines[-1])}{piece},"
-    return [indent + line for line in lines]
-
-
 def _vector(outputs: Sequence[Output], printer: ScalarPrinter) -> str:
     texts = [printer.text(o.expr, LOOSE) for o in outputs]
     return f"({', '.join(texts)})" if outputs[0].index else texts[0]
@@ -200,52 +190,8 @@ def _scale(inputs: Sequence[str]) -> list[str]:
 
 
 def _grouped(assignments: Sequence[Assignment], printer: ScalarPrinter) -> list[str]:
-    """A line for assignments of one kind that do not need each other, as far as it holds them."""
-    left = list(assignments)
-    lines: list[str] = []
-    while left:
-        first, *left = left
-        group, text = [first], printer.text(first.expr, LOOSE)
-        line = f"{INDENT}{first.name} = {text}"
-        if len(line) > WIDTH:
-            lines += _broken(first.name, text)
-            continue
-        texts, unset = [text], {first.name, *(a.name for a in left)}
-        for a in tuple(left):
-            if _kind(a) != _kind(first) or {s.name for s in a.expr.free_symbols} & unset:
-                continue
-            more = [*texts, printer.text(a.expr, LOOSE)]
-            longer = f"{INDENT}{', '.join(b.name for b in (*group, a))} = {', '.join(more)}"
-            if len(longer) > WIDTH:
-                break
-            line, texts = longer, more
-            group.append(a)
-            left.remove(a)
-            if printer.dialect.powers and len(group) == 3:  # Python makes a tuple of four
-                break
-        lines.append(line)
-    return lines
-
-
-def _kind(a: Assignment) -> object:
-    """What stands on one line is alike: a row of a matrix, or expressions of the same form."""
-    if re.fullmatch(r"[a-z]\d\d", a.name):
-        return a.name[:2]
-    return a.expr.func, len(a.expr.args), all(arg.is_Atom for arg in a.expr.args)
-
-
-def _broken(name: str, text: str) -> list[str]:
-    """A long sum, a few of its terms a line."""
-    lines = [""]
-    for piece in text.replace(" + ", "\0+ ").replace(" - ", "\0- ").split("\0"):
-        if len(lines[-1]) + len(piece) > WIDTH - 10:
-            lines.append("")
-        lines[-1] += f"{' ' * bool(lines[-1])}{piece}"
-    return [
-        f"{INDENT}{name} = (",
-        *(f"{INDENT * 2}{line}" for line in lines),
-        f"{INDENT})",
-    ]
+    most = 3 if printer.dialect.powers else len(assignments)
+    return grouped(assignments, printer, most, LOOSE)
 
 
 def _named(kernel: Kernel) -> Kernel:

@@ -33,7 +33,6 @@ Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
 Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
-ROWS = 23  # of scratch
 KEPT = threading.local()  # scratch, from call to call
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LEAST = 2.0**-1022  # the smallest normal number, for one point
@@ -107,16 +106,6 @@ class Constants:
         return Plain(self)
 
     @cached_property
-    def of_strains(self) -> tuple[float, ...]:
-        """What `strains` of one point takes."""
-        return (
-            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load,
-            self.plain.shear_load, self.plain.slack, self.plain.turn_load, 0.5 * self.p,
-            -self.plain.per_p, self.plain.bend_soft, self.plain.shear_soft, self.plain.turn_soft,
-            self.plain.untwist, *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
     def of_compliance(self) -> tuple[float, ...]:
         """What `compliance` of one point takes."""
         return (
@@ -154,6 +143,11 @@ class Plain:
             self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(1024))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
+        self.of_strains = (
+            self.m3_extends, self.n3_extends, self.bend_load, self.shear_load, self.slack,
+            self.turn_load, 0.5 * c.p, -self.per_p, self.bend_soft, self.shear_soft, self.turn_soft,
+            self.untwist, *self.room[DOUBLE],
+        )
 
 
 def _rounded(ratio: Fraction) -> float:
@@ -161,43 +155,24 @@ def _rounded(ratio: Fraction) -> float:
     return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
-def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
     """Loads over their moduli, the linear rod's strains, and Q* in squares."""
     m1, m2, m3, n1, n2, n3 = loads
-    mu_1 = np.multiply(c.per_alpha, m1, out=s[0])
-    mu_2 = np.multiply(c.per_alpha, m2, out=s[1])
-    mu_3 = np.multiply(c.per_beta, m3, out=s[6])
-    nu_1 = np.multiply(c.per_zeta, n1, out=s[3])
-    nu_2 = np.multiply(c.per_zeta, n2, out=s[4])
-    dilatation = np.multiply(c.n3_dilates, n3, out=s[5])
-    dilatation -= np.multiply(c.m3_contracts, m3, out=s[7])
-    twist = np.multiply(c.chirality, dilatation, out=s[2])
-    np.subtract(mu_3, twist, out=twist)
-    nu_3 = np.multiply(c.per_eta, n3, out=s[7])
-    q_star = np.square(dilatation, out=s[8])
-    q_star *= c.gap
-    q_star += np.square(mu_1, out=s[9])
-    q_star += np.square(mu_2, out=s[9])
-    q_star += np.square(mu_3, out=s[9])
-    q_star += np.square(nu_1, out=s[9])
-    q_star += np.square(nu_2, out=s[9])
+    mu_1, mu_2, mu_3 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3
+    nu_1, nu_2, nu_3 = c.per_zeta * n1, c.per_zeta * n2, c.per_eta * n3
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2 + nu_1**2 + nu_2**2
     return mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3, q_star
 
 
-def _soften(y: Array, c: Constants, s: Rows) -> Rows:
+def _soften(y: Array, c: Constants) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
-    larger = np.maximum(y, c.gamma, out=s[0])
-    ratio = np.minimum(y, c.gamma, out=s[1])
-    ratio /= larger
-    np.maximum(ratio, tiny, out=ratio)
-    power = np.log(ratio, out=s[1])
-    power *= c.p
-    np.exp(power, out=power)
-    factor = np.log1p(power, out=s[2])
-    factor *= -c.per_p
-    np.exp(factor, out=factor)
-    factor /= larger
+    larger = np.maximum(y, c.gamma)
+    ratio = np.maximum(np.minimum(y, c.gamma) / larger, tiny)
+    power = np.exp(c.p * np.log(ratio))
+    factor = np.exp(-c.per_p * np.log1p(power)) / larger
     return power, factor
 
 
@@ -208,51 +183,39 @@ def _largest(rows: Rows) -> Array:
 
 
 def _rescaled(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Any, Array]:
-    """Values of ``form`` (or ``known`` ones), the last of them, one over the scale, the square.
+    """Values of ``form``, the last of them, one over the scale, the square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, before
-    anything rounds; elsewhere, and at rest, this scale is one. None says that it is one everywhere.
-    The square comes twice, with the scale that the other values have, and without.
+    anything rounds; elsewhere, and at rest, this scale is one. The square comes twice, with the
+    scale that the other values have, and without.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = known or form(inputs, c, s)
+        *values, square = form(inputs, c)
         low = TINY[square.dtype] * 2**60
-        if square.min() > low and square.max() < 1 / low:
-            return values, square, None, square
         odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
         if not odd.any():
             return values, square, 1.0, square
         power = np.frexp(_largest(inputs))[1]
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
         power += np.frexp(_largest(values))[1] - 1
         deep = int(0.4 * math.log2(low))  # small values stay small, so that unscale does not
         power = np.where(odd, np.maximum(power, 0) + np.minimum(power - deep, 0), 0)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
         unscale = np.ldexp(square.dtype.type(1), power)
         return values, square, unscale, square * unscale * unscale
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Array, Any, Array]:
     """As `_rescaled`, with roots: values, norm, radius, one over the scale, square.
 
     The values and the norm share the scale; the radius and its square are free of it.
     """
-    values, scaled, unscale, square = _rescaled(form, inputs, c, s, known)
-    size = np.sqrt(scaled, out=s[-1])
-    if unscale is None:
-        return values, size, size, None, square
+    values, scaled, unscale, square = _rescaled(form, inputs, c)
+    size = np.sqrt(scaled)
     with np.errstate(over="ignore"):
         radius = size * unscale
     return values, np.maximum(size, TINY[size.dtype]), radius, unscale, square
@@ -307,17 +270,6 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     return list(given)
 
 
-def _scratch(size: int, dtype: Any) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = size + 16  # rows that are a power of two apart would share their places in the cache
-    needed = ROWS * length * dtype.itemsize
-    memory = getattr(KEPT, "memory", None)
-    if memory is None or len(memory) < needed:
-        memory = KEPT.memory = np.empty(needed, np.uint8)
-    rows: Array = memory[:needed].view(dtype).reshape(ROWS, length)
-    return rows[:, :size]
-
-
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
@@ -337,13 +289,11 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = _scratch(size, arrays[0].dtype)
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            work = scratch[:, : part.stop - start]
             rows = [row for a in given for row in a[:, part]]
-            body(rows, c, work, *(array[..., part] for array in flat))
+            body(rows, c, *(array[..., part] for array in flat))
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -380,29 +330,66 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
-def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> bool:
-    """`_strains` where nothing is extreme; else False."""
+def _scratch(count: int, like: Array) -> Array:
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
+    length = like.size + 16  # rows a power of two apart would share their places in the cache
+    needed = count * length * like.itemsize
+    memory = getattr(KEPT, "memory", None)
+    if memory is None or len(memory) < needed:
+        memory = KEPT.memory = np.empty(needed, np.uint8)
+    rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
+    return rows[:, : like.size]
+
+
+def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
+    """Whether all of it lies between the bounds for its type; nan does not."""
+    low, high = within[square.dtype]
+    return bool(low < square[square.argmin()] and square[square.argmax()] < high)
+
+
+def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
+    """Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."""
     k = c.plain
     m1, m2, m3, n1, n2, n3 = loads
-    s = [*work[:4]]
+    extension = np.multiply(k.n3_extends, n3, out=s[0])
+    extension -= np.multiply(k.m3_extends, m3, out=s[1])
+    overload = np.square(m1, out=s[1])
+    overload += np.square(m2, out=s[2])
+    overload *= k.bend_load
+    np.square(extension, out=s[2])
+    s[2] *= k.slack
+    overload += s[2]
+    np.square(m3, out=s[2])
+    s[2] *= k.turn_load
+    overload += s[2]
+    np.square(n1, out=s[2])
+    s[2] += np.square(n2, out=s[3])
+    s[2] *= k.shear_load
+    overload += s[2]
+    return extension, overload
+
+
+def _spread(matrix: Array, weight: Array, vector: Array) -> None:
+    """weight vector vector^T, on and above the diagonal."""
+    for i, row in enumerate(vector):
+        np.multiply(weight * row, vector[i:], out=matrix[i, i:])
+
+
+def _mirror(matrix: Array) -> None:
+    """What is above the diagonal, below it."""
+    for i in range(1, len(matrix)):
+        matrix[i, :i] = matrix[:i, i]
+
+
+def _strains_plain(loads: Rows, c: Constants, u: Array, v: Array) -> bool:
+    """`_strains` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3, n1, n2, _ = loads
+    work = _scratch(4, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[0])
-        extension -= np.multiply(k.m3_extends, m3, out=s[1])
-        overload = np.square(m1, out=s[1])
-        overload += np.square(m2, out=s[2])
-        overload *= k.bend_load
-        np.square(extension, out=s[2])
-        s[2] *= k.slack
-        overload += s[2]
-        np.square(m3, out=s[2])
-        s[2] *= k.turn_load
-        overload += s[2]
-        np.square(n1, out=s[2])
-        s[2] += np.square(n2, out=s[3])
-        s[2] *= k.shear_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[1])
     excess *= 0.5 * c.p
@@ -424,26 +411,19 @@ def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -
     return True
 
 
-def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None:
+def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
     """(u, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n)."""
-    if _strains_plain(loads, c, work, u, v):
+    if _strains_plain(loads, c, u, v):
         return
-    s = [*u, *v, *work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
-    *_, factor = _soften(y, c, s[9:])
-    reach = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.per_alpha, reach, out=s[6])
-    np.multiply(bend, mu_1, out=u[0])
-    np.multiply(bend, mu_2, out=u[1])
-    turn = np.multiply(c.per_beta, reach, out=s[6])
-    np.multiply(turn, twist, out=u[2])
-    shear = np.multiply(c.per_zeta, reach, out=s[6])
-    np.multiply(nu_1, shear, out=v[0])
-    np.multiply(nu_2, shear, out=v[1])
-    extend = np.multiply(c.per_eta, reach, out=s[11])
-    np.multiply(dilatation, extend, out=v[2])
-    v[2] += 1
+    *_, factor = _soften(y, c)
+    reach = factor * unscale
+    bend, turn, shear = c.per_alpha * reach, c.per_beta * reach, c.per_zeta * reach
+    extend = c.per_eta * reach
+    u[0], u[1], u[2] = bend * mu_1, bend * mu_2, turn * twist
+    v[0], v[1] = nu_1 * shear, nu_2 * shear
+    v[2] = dilatation * extend + 1
 
 
 def _strains_at(m: Any, n: Any, c: Constants) -> Any:
@@ -451,7 +431,7 @@ def _strains_at(m: Any, n: Any, c: Constants) -> Any:
     (
         m3_extends, n3_extends, bend_load, shear_load, slack, turn_load, half_p, minus_per_p,
         bend_soft, shear_soft, turn_soft, untwist, low, high,
-    ) = c.of_strains
+    ) = c.plain.of_strains
     m1, m2, m3 = m
     n1, n2, n3 = n
     extension = n3_extends * n3 - m3_extends * m3
@@ -488,104 +468,44 @@ def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -
     return u, v
 
 
-def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
-    s = [*work]
-    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3 = values
-    power, factor = _soften(y, c, s[9:])
+    power, factor = _soften(y, c)
     tiny = TINY[y.dtype]
-    d = work[12:18]
-    share = np.add(power, 1, out=s[8])
-    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
-    steep = np.negative(factor, out=s[9])
-    steep *= share
-    per_size = np.divide(1, size, out=s[8])
-    a1 = np.add(mu_1, tiny, out=s[0])
-    a1 *= per_size
-    np.multiply(c.per_alpha, a1, out=d[0])
-    a2 = np.multiply(mu_2, per_size, out=s[1])
-    np.multiply(c.per_alpha, a2, out=d[1])
-    c3 = np.multiply(per_size, twist, out=s[2])
-    np.multiply(c.per_beta, c3, out=d[2])
-    b1 = np.multiply(nu_1, per_size, out=s[3])
-    np.multiply(c.per_zeta, b1, out=d[3])
-    b2 = np.multiply(nu_2, per_size, out=s[4])
-    np.multiply(c.per_zeta, b2, out=d[4])
-    c6 = np.multiply(dilatation, per_size, out=s[5])
-    np.multiply(c.per_eta, c6, out=d[5])
-    for i in range(6):
-        np.multiply(steep, d[i], out=s[18])
-        np.multiply(s[18], d[i:], out=soft[i, i:])
-    remain = np.add(power, 1, out=s[9])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
-    aa1 = np.square(a1, out=s[0])
-    aa2 = np.square(a2, out=s[1])
-    bb1 = np.square(b1, out=s[3])
-    bb2 = np.square(b2, out=s[4])
-    a3 = np.multiply(mu_3, per_size, out=s[6])
-    aa3 = np.square(a3, out=s[10])
-    cc6 = np.square(c6, out=s[18])
-    coupled = np.multiply(c.gap, cc6, out=s[19])
-    np.add(aa3, coupled, out=coupled)
-    np.multiply(aa1, remain, out=soft[0, 0])
-    soft[0, 0] += aa2
-    soft[0, 0] += bb1
-    soft[0, 0] += bb2
-    soft[0, 0] += coupled
-    soft[0, 0] *= c.per_alpha**2
-    soft[0, 0] *= factor
-    np.multiply(aa2, remain, out=soft[1, 1])
-    np.add(aa1, soft[1, 1], out=soft[1, 1])
-    soft[1, 1] += bb1
-    soft[1, 1] += bb2
-    soft[1, 1] += coupled
-    soft[1, 1] *= c.per_alpha**2
-    soft[1, 1] *= factor
-    b3 = np.multiply(nu_3, per_size, out=s[7])
-    across = np.add(aa1, aa2, out=s[8])
-    across += bb1
-    across += bb2
-    np.square(c3, out=soft[2, 2])
-    soft[2, 2] *= remain
-    np.square(b3, out=s[20])
-    np.add(across, s[20], out=s[20])
-    s[20] *= c.per_gap
-    soft[2, 2] += s[20]
-    soft[2, 2] *= c.per_beta**2
-    soft[2, 2] *= factor
-    np.multiply(c3, c6, out=soft[2, 5])
-    soft[2, 5] *= remain
-    np.multiply(a3, b3, out=s[6])
-    s[6] += np.multiply(c.chirality, across, out=s[7])
-    s[6] *= c.per_gap
-    soft[2, 5] -= s[6]
-    soft[2, 5] *= c.per_beta * c.per_eta
-    soft[2, 5] *= factor
-    np.add(aa1, aa2, out=soft[3, 3])
-    soft[3, 3] += np.multiply(bb1, remain, out=s[6])
-    soft[3, 3] += bb2
-    soft[3, 3] += coupled
-    soft[3, 3] *= c.per_zeta**2
-    soft[3, 3] *= factor
-    np.add(aa1, aa2, out=soft[4, 4])
-    soft[4, 4] += bb1
-    soft[4, 4] += np.multiply(bb2, remain, out=s[4])
-    soft[4, 4] += coupled
-    soft[4, 4] *= c.per_zeta**2
-    soft[4, 4] *= factor
-    np.multiply(cc6, remain, out=soft[5, 5])
-    np.add(aa3, across, out=s[10])
-    s[10] *= c.per_gap
-    soft[5, 5] += s[10]
-    soft[5, 5] *= c.per_eta**2
-    soft[5, 5] *= factor
-    for i in range(1, 6):
-        soft[i, :i] = soft[:i, i]
+    d = np.empty_like(soft[0])
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    per_size = 1 / size
+    a1, share = per_size * (mu_1 + tiny), np.where(y <= c.gamma, power, 1.0) / (power + 1)
+    aa1 = a1**2
+    a2, a3, b1 = mu_2 * per_size, mu_3 * per_size, nu_1 * per_size
+    aa2, aa3, bb1 = a2**2, a3**2, b1**2
+    b2, b3, c3 = nu_2 * per_size, nu_3 * per_size, per_size * twist
+    bb2 = b2**2
+    c6 = dilatation * per_size
+    cc6 = c6**2
+    across = aa1 + aa2 + bb1 + bb2
+    coupled = aa3 + c.gap * cc6
+    steep = -factor * share
+    d[0], d[1], d[2] = c.per_alpha * a1, c.per_alpha * a2, c.per_beta * c3
+    d[3], d[4], d[5] = c.per_zeta * b1, c.per_zeta * b2, c.per_eta * c6
+    _spread(soft, steep, d)
+    soft[0, 0] = c.per_alpha**2 * factor * (aa1 * remain + aa2 + bb1 + bb2 + coupled)
+    soft[1, 1] = c.per_alpha**2 * factor * (aa1 + aa2 * remain + bb1 + bb2 + coupled)
+    soft[2, 2] = c.per_beta**2 * factor * (c3**2 * remain + c.per_gap * (across + b3**2))
+    soft[2, 5] = (
+        c.per_beta * c.per_eta * factor
+        * (c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across))
+    )
+    soft[3, 3] = c.per_zeta**2 * factor * (aa1 + aa2 + bb1 * remain + bb2 + coupled)
+    soft[4, 4] = c.per_zeta**2 * factor * (aa1 + aa2 + bb1 + bb2 * remain + coupled)
+    soft[5, 5] = c.per_eta**2 * factor * (cc6 * remain + c.per_gap * (aa3 + across))
+    _mirror(soft)
 
 
 def _compliance_at(m: Any, n: Any, c: Constants) -> Any:

@@ -901,8 +901,8 @@ def _compliance(
     s33 = c.per_beta * c.per_beta * factor * (c3 * c3 * remain + c.per_gap * (across + b3 * b3))
     s34, s35 = d4 * steep_3, d5 * steep_3
     s36 = (
-        c.per_beta * c.per_eta * factor * (c3 * c6 * remain - c.per_gap * (a3 * b3
-        + c.chirality * across))
+        c.per_beta * c.per_eta * factor
+        * (c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across))
     )
     s44 = c.per_zeta * c.per_zeta * factor * (aa1 + aa2 + bb1 * remain + bb2 + coupled)
     s45, s46 = d5 * steep_4, d6 * steep_4

@@ -44,7 +44,6 @@ Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
 Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
-ROWS = 15  # of scratch
 KEPT = threading.local()  # scratch, from call to call
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LEAST = 2.0**-1022  # the smallest normal number, for one point
@@ -135,15 +134,6 @@ class Constants:
         return fraction, powers, start, slope, single
 
     @cached_property
-    def of_strains(self) -> tuple[float, ...]:
-        """What `strains` of one point takes."""
-        return (
-            -self.plain.m3_extends, self.plain.bend_load, self.plain.slack, self.plain.turn_load,
-            0.5 * self.p, -self.plain.per_p, self.plain.bend_soft, self.plain.turn_soft,
-            self.plain.untwist, *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
     def of_complementary_energy(self) -> tuple[float, ...]:
         """What `complementary_energy` of one point takes."""
         return (
@@ -157,15 +147,6 @@ class Constants:
         return (
             self.per_alpha, self.per_beta, -self.m3_contracts, self.chirality, self.gap, self.gamma,
             self.p, -self.per_p, self.per_alpha**2, self.per_beta**2, self.per_gap,
-        )
-
-    @cached_property
-    def of_strains_and_gap(self) -> tuple[float, ...]:
-        """What `strains_and_gap` of one point takes."""
-        return (
-            -self.plain.m3_extends, self.plain.bend_load, self.plain.slack, self.plain.turn_load,
-            0.5 * self.p, -self.plain.per_p, self.plain.bend_soft, self.plain.turn_soft,
-            self.plain.untwist, *self.plain.room[DOUBLE],
         )
 
 
@@ -193,6 +174,14 @@ class Plain:
             self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(1024))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
+        self.of_strains = (
+            -self.m3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p, -self.per_p,
+            self.bend_soft, self.turn_soft, self.untwist, *self.room[DOUBLE],
+        )
+        self.of_strains_and_gap = (
+            -self.m3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p, -self.per_p,
+            self.bend_soft, self.turn_soft, self.untwist, *self.room[DOUBLE],
+        )
 
 
 def _rounded(ratio: Fraction) -> float:
@@ -200,37 +189,23 @@ def _rounded(ratio: Fraction) -> float:
     return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
-def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
     """Loads over their moduli, the linear rod's strains, and Q* in squares."""
     m1, m2, m3 = loads
-    mu_1 = np.multiply(c.per_alpha, m1, out=s[0])
-    mu_2 = np.multiply(c.per_alpha, m2, out=s[1])
-    mu_3 = np.multiply(c.per_beta, m3, out=s[4])
-    dilatation = np.multiply(-c.m3_contracts, m3, out=s[3])
-    twist = np.multiply(c.chirality, dilatation, out=s[2])
-    np.subtract(mu_3, twist, out=twist)
-    q_star = np.square(dilatation, out=s[5])
-    q_star *= c.gap
-    q_star += np.square(mu_1, out=s[6])
-    q_star += np.square(mu_2, out=s[6])
-    q_star += np.square(mu_3, out=s[6])
+    mu_1, mu_2, mu_3 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3
+    dilatation = -c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2
     return mu_1, mu_2, mu_3, dilatation, twist, q_star
 
 
-def _soften(y: Array, c: Constants, s: Rows) -> Rows:
+def _soften(y: Array, c: Constants) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
-    larger = np.maximum(y, c.gamma, out=s[0])
-    ratio = np.minimum(y, c.gamma, out=s[1])
-    ratio /= larger
-    np.maximum(ratio, tiny, out=ratio)
-    power = np.log(ratio, out=s[2])
-    power *= c.p
-    np.exp(power, out=power)
-    factor = np.log1p(power, out=s[3])
-    factor *= -c.per_p
-    np.exp(factor, out=factor)
-    factor /= larger
+    larger = np.maximum(y, c.gamma)
+    ratio = np.maximum(np.minimum(y, c.gamma) / larger, tiny)
+    power = np.exp(c.p * np.log(ratio))
+    factor = np.exp(-c.per_p * np.log1p(power)) / larger
     return ratio, power, factor
 
 
@@ -241,51 +216,39 @@ def _largest(rows: Rows) -> Array:
 
 
 def _rescaled(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Any, Array]:
-    """Values of ``form`` (or ``known`` ones), the last of them, one over the scale, the square.
+    """Values of ``form``, the last of them, one over the scale, the square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, before
-    anything rounds; elsewhere, and at rest, this scale is one. None says that it is one everywhere.
-    The square comes twice, with the scale that the other values have, and without.
+    anything rounds; elsewhere, and at rest, this scale is one. The square comes twice, with the
+    scale that the other values have, and without.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = known or form(inputs, c, s)
+        *values, square = form(inputs, c)
         low = TINY[square.dtype] * 2**60
-        if square.min() > low and square.max() < 1 / low:
-            return values, square, None, square
         odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
         if not odd.any():
             return values, square, 1.0, square
         power = np.frexp(_largest(inputs))[1]
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
         power += np.frexp(_largest(values))[1] - 1
         deep = int(0.4 * math.log2(low))  # small values stay small, so that unscale does not
         power = np.where(odd, np.maximum(power, 0) + np.minimum(power - deep, 0), 0)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
         unscale = np.ldexp(square.dtype.type(1), power)
         return values, square, unscale, square * unscale * unscale
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Array, Any, Array]:
     """As `_rescaled`, with roots: values, norm, radius, one over the scale, square.
 
     The values and the norm share the scale; the radius and its square are free of it.
     """
-    values, scaled, unscale, square = _rescaled(form, inputs, c, s, known)
-    size = np.sqrt(scaled, out=s[-1])
-    if unscale is None:
-        return values, size, size, None, square
+    values, scaled, unscale, square = _rescaled(form, inputs, c)
+    size = np.sqrt(scaled)
     with np.errstate(over="ignore"):
         radius = size * unscale
     return values, np.maximum(size, TINY[size.dtype]), radius, unscale, square
@@ -387,17 +350,6 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     return list(given)
 
 
-def _scratch(size: int, dtype: Any) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = size + 16  # rows that are a power of two apart would share their places in the cache
-    needed = ROWS * length * dtype.itemsize
-    memory = getattr(KEPT, "memory", None)
-    if memory is None or len(memory) < needed:
-        memory = KEPT.memory = np.empty(needed, np.uint8)
-    rows: Array = memory[:needed].view(dtype).reshape(ROWS, length)
-    return rows[:, :size]
-
-
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
@@ -417,13 +369,11 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = _scratch(size, arrays[0].dtype)
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            work = scratch[:, : part.stop - start]
             rows = [row for a in given for row in a[:, part]]
-            body(rows, c, work, *(array[..., part] for array in flat))
+            body(rows, c, *(array[..., part] for array in flat))
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -460,24 +410,61 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
-def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> bool:
+def _scratch(count: int, like: Array) -> Array:
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
+    length = like.size + 16  # rows a power of two apart would share their places in the cache
+    needed = count * length * like.itemsize
+    memory = getattr(KEPT, "memory", None)
+    if memory is None or len(memory) < needed:
+        memory = KEPT.memory = np.empty(needed, np.uint8)
+    rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
+    return rows[:, : like.size]
+
+
+def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
+    """Whether all of it lies between the bounds for its type; nan does not."""
+    low, high = within[square.dtype]
+    return bool(low < square[square.argmin()] and square[square.argmax()] < high)
+
+
+def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
+    """Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."""
+    k = c.plain
+    m1, m2, m3 = loads
+    extension = np.multiply(-k.m3_extends, m3, out=s[0])
+    overload = np.square(m1, out=s[1])
+    overload += np.square(m2, out=s[2])
+    overload *= k.bend_load
+    np.square(extension, out=s[2])
+    s[2] *= k.slack
+    overload += s[2]
+    np.square(m3, out=s[2])
+    s[2] *= k.turn_load
+    overload += s[2]
+    return extension, overload
+
+
+def _spread(matrix: Array, weight: Array, vector: Array) -> None:
+    """weight vector vector^T, on and above the diagonal."""
+    for i, row in enumerate(vector):
+        np.multiply(weight * row, vector[i:], out=matrix[i, i:])
+
+
+def _mirror(matrix: Array) -> None:
+    """What is above the diagonal, below it."""
+    for i in range(1, len(matrix)):
+        matrix[i, :i] = matrix[:i, i]
+
+
+def _strains_plain(loads: Rows, c: Constants, u: Array, v3: Array) -> bool:
     """`_strains` where nothing is extreme; else False."""
     k = c.plain
     m1, m2, m3 = loads
-    s = [*work[:3]]
+    work = _scratch(3, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(-k.m3_extends, m3, out=s[0])
-        overload = np.square(m1, out=s[1])
-        overload += np.square(m2, out=s[2])
-        overload *= k.bend_load
-        np.square(extension, out=s[2])
-        s[2] *= k.slack
-        overload += s[2]
-        np.square(m3, out=s[2])
-        s[2] *= k.turn_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[1])
     excess *= 0.5 * c.p
@@ -496,23 +483,17 @@ def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) 
     return True
 
 
-def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> None:
+def _strains(loads: Rows, c: Constants, u: Array, v3: Array) -> None:
     """(u, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 m."""
-    if _strains_plain(loads, c, work, u, v3):
+    if _strains_plain(loads, c, u, v3):
         return
-    s = [*u, v3, *work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, dilatation, twist = values
-    *_, factor = _soften(y, c, s[6:])
-    reach = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.per_alpha, reach, out=s[4])
-    np.multiply(bend, mu_1, out=u[0])
-    np.multiply(bend, mu_2, out=u[1])
-    turn = np.multiply(c.per_beta, reach, out=s[4])
-    np.multiply(turn, twist, out=u[2])
-    extend = np.multiply(c.per_eta, reach, out=s[9])
-    np.multiply(dilatation, extend, out=v3)
-    v3 += 1
+    *_, factor = _soften(y, c)
+    reach = factor * unscale
+    bend, turn, extend = c.per_alpha * reach, c.per_beta * reach, c.per_eta * reach
+    u[0], u[1], u[2] = bend * mu_1, bend * mu_2, turn * twist
+    v3[...] = dilatation * extend + 1
 
 
 def _strains_at(m: Any, c: Constants) -> Any:
@@ -520,7 +501,7 @@ def _strains_at(m: Any, c: Constants) -> Any:
     (
         minus_m3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft, turn_soft,
         untwist, low, high,
-    ) = c.of_strains
+    ) = c.plain.of_strains
     m1, m2, m3 = m
     extension = minus_m3_extends * m3
     overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
@@ -552,17 +533,13 @@ def strains(m: Given, constants: Constants, out: Pair | None = None) -> Pair:
     return u, v3
 
 
-def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
+def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
-    s = [*work]
-    _, _, y, _, _ = _balanced(_reduce_loads, loads, c, s)
-    ratio, power, factor = _soften(y, c, s[6:])
-    strain = np.multiply(factor, y, out=s[9])
-    depth = np.log1p(power, out=s[8])
-    depth -= np.multiply(c.p, np.where(y <= c.gamma, 0.0, np.log(ratio)), out=s[7])
-    np.subtract(1, _work_share(depth, c), out=w_star)
-    w_star *= strain
-    w_star *= y
+    _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
+    ratio, power, factor = _soften(y, c)
+    strain = factor * y
+    depth = np.log1p(power) - c.p * np.where(y <= c.gamma, 0.0, np.log(ratio))
+    w_star[...] = strain * y * (1 - _work_share(depth, c))
 
 
 def _complementary_energy_at(m: Any, c: Constants) -> Any:
@@ -600,62 +577,33 @@ def complementary_energy(m: Given, constants: Constants, out: Array | None = Non
     return w_star
 
 
-def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 m/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
-    s = [*work]
-    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, dilatation, twist = values
-    _, power, factor = _soften(y, c, s[6:])
+    _, power, factor = _soften(y, c)
     tiny = TINY[y.dtype]
-    d = work[10:13]
-    share = np.add(power, 1, out=s[5])
-    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
-    steep = np.negative(factor, out=s[6])
-    steep *= share
-    per_size = np.divide(1, size, out=s[5])
-    a1 = np.add(mu_1, tiny, out=s[0])
-    a1 *= per_size
-    np.multiply(c.per_alpha, a1, out=d[0])
-    a2 = np.multiply(mu_2, per_size, out=s[1])
-    np.multiply(c.per_alpha, a2, out=d[1])
-    c3 = np.multiply(per_size, twist, out=s[2])
-    np.multiply(c.per_beta, c3, out=d[2])
-    for i in range(3):
-        np.multiply(steep, d[i], out=s[7])
-        np.multiply(s[7], d[i:], out=soft[i, i:])
-    remain = np.add(power, 1, out=s[6])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
-    aa1 = np.square(a1, out=s[0])
-    aa2 = np.square(a2, out=s[1])
-    a3 = np.multiply(mu_3, per_size, out=s[4])
-    c6 = np.multiply(dilatation, per_size, out=s[3])
-    coupled = np.square(a3, out=s[4])
-    np.square(c6, out=s[3])
-    s[3] *= c.gap
-    coupled += s[3]
-    np.multiply(aa1, remain, out=soft[0, 0])
-    soft[0, 0] += aa2
-    soft[0, 0] += coupled
-    soft[0, 0] *= c.per_alpha**2
-    soft[0, 0] *= factor
-    np.multiply(aa2, remain, out=soft[1, 1])
-    np.add(aa1, soft[1, 1], out=soft[1, 1])
-    soft[1, 1] += coupled
-    soft[1, 1] *= c.per_alpha**2
-    soft[1, 1] *= factor
-    across = np.add(aa1, aa2, out=s[0])
-    np.multiply(c.per_gap, across, out=soft[2, 2])
-    np.square(c3, out=s[2])
-    s[2] *= remain
-    soft[2, 2] += s[2]
-    soft[2, 2] *= c.per_beta**2
-    soft[2, 2] *= factor
-    for i in range(1, 3):
-        soft[i, :i] = soft[:i, i]
+    d = np.empty_like(soft[0])
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    per_size = 1 / size
+    a1, share = per_size * (mu_1 + tiny), np.where(y <= c.gamma, power, 1.0) / (power + 1)
+    aa1 = a1**2
+    a2, a3, c3 = mu_2 * per_size, mu_3 * per_size, per_size * twist
+    aa2 = a2**2
+    c6 = dilatation * per_size
+    across = aa1 + aa2
+    coupled = a3**2 + c.gap * c6**2
+    steep = -factor * share
+    d[0], d[1], d[2] = c.per_alpha * a1, c.per_alpha * a2, c.per_beta * c3
+    _spread(soft, steep, d)
+    soft[0, 0] = c.per_alpha**2 * factor * (aa1 * remain + aa2 + coupled)
+    soft[1, 1] = c.per_alpha**2 * factor * (aa1 + aa2 * remain + coupled)
+    soft[2, 2] = c.per_beta**2 * factor * (c.per_gap * across + c3**2 * remain)
+    _mirror(soft)
 
 
 def _compliance_at(m: Any, c: Constants) -> Any:
@@ -716,25 +664,16 @@ def compliance(m: Given, constants: Constants, out: Array | None = None) -> Arra
 
 
 def _strains_and_gap_plain(
-    loads: Rows, c: Constants, work: Array, u: Array, v3: Array, limit_gap: Array
+    loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array
 ) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
     m1, m2, m3 = loads
-    s = [*work[:4]]
+    work = _scratch(4, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(-k.m3_extends, m3, out=s[0])
-        overload = np.square(m1, out=s[1])
-        overload += np.square(m2, out=s[2])
-        overload *= k.bend_load
-        np.square(extension, out=s[2])
-        s[2] *= k.slack
-        overload += s[2]
-        np.square(m3, out=s[2])
-        s[2] *= k.turn_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[1])
     excess *= 0.5 * c.p
@@ -755,27 +694,18 @@ def _strains_and_gap_plain(
     return True
 
 
-def _strains_and_gap(
-    loads: Rows, c: Constants, work: Array, u: Array, v3: Array, limit_gap: Array
-) -> None:
+def _strains_and_gap(loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    if _strains_and_gap_plain(loads, c, work, u, v3, limit_gap):
+    if _strains_and_gap_plain(loads, c, u, v3, limit_gap):
         return
-    s = [*work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, dilatation, twist = values
-    _, power, factor = _soften(y, c, s[6:])
-    reach = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.per_alpha, reach, out=s[4])
-    np.multiply(bend, mu_1, out=u[0])
-    np.multiply(bend, mu_2, out=u[1])
-    turn = np.multiply(c.per_beta, reach, out=s[1])
-    np.multiply(turn, twist, out=u[2])
-    extend = np.multiply(c.per_eta, reach, out=s[9])
-    np.multiply(dilatation, extend, out=v3)
-    v3 += 1
-    remain = np.add(power, 1, out=s[9])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
+    _, power, factor = _soften(y, c)
+    reach = factor * unscale
+    bend, turn, extend = c.per_alpha * reach, c.per_beta * reach, c.per_eta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    u[0], u[1], u[2] = bend * mu_1, bend * mu_2, turn * twist
+    v3[...] = dilatation * extend + 1
     limit_gap[...] = remain
 
 
@@ -784,7 +714,7 @@ def _strains_and_gap_at(m: Any, c: Constants) -> Any:
     (
         minus_m3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft, turn_soft,
         untwist, low, high,
-    ) = c.of_strains_and_gap
+    ) = c.plain.of_strains_and_gap
     m1, m2, m3 = m
     extension = minus_m3_extends * m3
     overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3

@@ -51,7 +51,6 @@ Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
 Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
-ROWS = 18  # of scratch
 KEPT = threading.local()  # scratch, from call to call
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
@@ -179,24 +178,6 @@ class Constants:
         )
 
     @cached_property
-    def of_strains(self) -> tuple[float, ...]:
-        """What `strains` of one point takes."""
-        return (
-            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load, self.plain.slack,
-            self.plain.turn_load, 0.5 * self.p, -self.plain.per_p, self.plain.bend_soft,
-            self.plain.turn_soft, self.plain.untwist, *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
-    def of_loads(self) -> tuple[float, ...]:
-        """What `loads` of one point takes."""
-        return (
-            self.iota, self.plain.turning, self.plain.slack, self.plain.bending,
-            self.plain.per_turning, 0.5 * self.p, self.gamma, -self.plain.per_p, self.plain.untwist,
-            *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
     def of_stored_energy(self) -> tuple[float, ...]:
         """What `stored_energy` of one point takes."""
         return (
@@ -213,40 +194,12 @@ class Constants:
         )
 
     @cached_property
-    def of_loads_and_stiffness(self) -> tuple[float, ...]:
-        """What `loads_and_stiffness` of one point takes."""
-        return (
-            self.iota, self.plain.turning, self.plain.slack, self.plain.bending, self.plain.untwist,
-            self.plain.per_turning, 0.5 * self.p, self.gamma, -self.plain.per_p,
-            self.plain.stretching, *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
     def of_compliance(self) -> tuple[float, ...]:
         """What `compliance` of one point takes."""
         return (
             self.per_alpha, self.per_beta, self.per_eta, self.m3_contracts, self.n3_dilates,
             self.chirality, self.gap, self.gamma, self.p, -self.per_p, self.per_alpha**2,
             self.per_beta**2, self.per_gap, self.per_beta * self.per_eta, self.per_eta**2,
-        )
-
-    @cached_property
-    def of_strains_and_gap(self) -> tuple[float, ...]:
-        """What `strains_and_gap` of one point takes."""
-        return (
-            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load, self.plain.slack,
-            self.plain.turn_load, 0.5 * self.p, -self.plain.per_p, self.plain.bend_soft,
-            self.plain.turn_soft, self.plain.untwist, *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
-    def of_stiffness_at_loads(self) -> tuple[float, ...]:
-        """What `stiffness_at_loads` of one point takes."""
-        return (
-            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load, self.plain.slack,
-            self.plain.turn_load, 0.5 * self.p, self.gamma, self.plain.per_p, self.plain.per_gamma,
-            self.plain.bending, self.plain.turning, self.iota, self.plain.stretching,
-            *self.plain.room[DOUBLE],
         )
 
 
@@ -283,6 +236,27 @@ class Plain:
             self.within_overload[kind] = overload if even else (1.0, 0.0)
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
             self.within_q[kind] = q if even else (1.0, 0.0)
+        self.of_strains = (
+            self.m3_extends, self.n3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p,
+            -self.per_p, self.bend_soft, self.turn_soft, self.untwist, *self.room[DOUBLE],
+        )
+        self.of_loads = (
+            c.iota, self.turning, self.slack, self.bending, self.per_turning, 0.5 * c.p, c.gamma,
+            -self.per_p, self.untwist, *self.room[DOUBLE],
+        )
+        self.of_loads_and_stiffness = (
+            c.iota, self.turning, self.slack, self.bending, self.untwist, self.per_turning,
+            0.5 * c.p, c.gamma, -self.per_p, self.stretching, *self.room[DOUBLE],
+        )
+        self.of_strains_and_gap = (
+            self.m3_extends, self.n3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p,
+            -self.per_p, self.bend_soft, self.turn_soft, self.untwist, *self.room[DOUBLE],
+        )
+        self.of_stiffness_at_loads = (
+            self.m3_extends, self.n3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p,
+            c.gamma, self.per_p, self.per_gamma, self.bending, self.turning, c.iota,
+            self.stretching, *self.room[DOUBLE],
+        )
 
 
 def _rounded(ratio: Fraction) -> float:
@@ -290,94 +264,55 @@ def _rounded(ratio: Fraction) -> float:
     return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
-def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
     """Loads over their moduli, the linear rod's strains, and Q* in squares."""
     m1, m2, m3, n3 = loads
-    mu_1 = np.multiply(c.per_alpha, m1, out=s[0])
-    mu_2 = np.multiply(c.per_alpha, m2, out=s[1])
-    mu_3 = np.multiply(c.per_beta, m3, out=s[4])
-    dilatation = np.multiply(c.n3_dilates, n3, out=s[3])
-    dilatation -= np.multiply(c.m3_contracts, m3, out=s[5])
-    twist = np.multiply(c.chirality, dilatation, out=s[2])
-    np.subtract(mu_3, twist, out=twist)
-    nu_3 = np.multiply(c.per_eta, n3, out=s[5])
-    q_star = np.square(dilatation, out=s[6])
-    q_star *= c.gap
-    q_star += np.square(mu_1, out=s[7])
-    q_star += np.square(mu_2, out=s[7])
-    q_star += np.square(mu_3, out=s[7])
+    mu_1, mu_2, mu_3 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    nu_3 = c.per_eta * n3
+    q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2
     return mu_1, mu_2, mu_3, dilatation, twist, nu_3, q_star
 
 
-def _soften(y: Array, c: Constants, s: Rows) -> Rows:
+def _soften(y: Array, c: Constants) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
-    larger = np.maximum(y, c.gamma, out=s[0])
-    ratio = np.minimum(y, c.gamma, out=s[1])
-    ratio /= larger
-    np.maximum(ratio, tiny, out=ratio)
-    power = np.log(ratio, out=s[2])
-    power *= c.p
-    np.exp(power, out=power)
-    factor = np.log1p(power, out=s[3])
-    factor *= -c.per_p
-    np.exp(factor, out=factor)
-    factor /= larger
+    larger = np.maximum(y, c.gamma)
+    ratio = np.maximum(np.minimum(y, c.gamma) / larger, tiny)
+    power = np.exp(c.p * np.log(ratio))
+    factor = np.exp(-c.per_p * np.log1p(power)) / larger
     return ratio, power, factor
 
 
-def _reduce_strains(rest: Rows, c: Constants, s: Rows) -> Rows:
+def _reduce_strains(rest: Rows, c: Constants) -> Rows:
     """Strains times their moduli, the linear rod's loads, and Q in squares."""
     u1, u2, u3, stretch = rest
-    kappa_1 = np.multiply(c.alpha, u1, out=s[0])
-    kappa_2 = np.multiply(c.alpha, u2, out=s[1])
-    kappa_3 = np.multiply(c.beta, u3, out=s[4])
-    lam_3 = np.multiply(c.eta, stretch, out=s[5])
-    torque = np.multiply(c.chirality, lam_3, out=s[2])
-    torque += kappa_3
-    tension = np.multiply(c.chirality, torque, out=s[3])
-    tension += np.multiply(c.gap, lam_3, out=s[4])
-    q = np.square(lam_3, out=s[5])
-    q *= c.gap
-    q += np.square(kappa_1, out=s[4])
-    q += np.square(kappa_2, out=s[4])
-    q += np.square(torque, out=s[4])
+    kappa_1, kappa_2, kappa_3 = c.alpha * u1, c.alpha * u2, c.beta * u3
+    lam_3 = c.eta * stretch
+    torque = c.chirality * lam_3 + kappa_3
+    tension = c.chirality * torque + c.gap * lam_3
+    q = c.gap * lam_3**2 + kappa_1**2 + kappa_2**2 + torque**2
     return kappa_1, kappa_2, torque, tension, q
 
 
-def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
+def _stiffen(q: Array, c: Constants) -> Rows:
     """Load over strain, gamma (1 - x^p)^(-1/p), by the growth x^p/(1 - x^p), x^2 = Q."""
     log_max = LOG_MAX[q.dtype]
     tiny = TINY[q.dtype]
-    growth = np.maximum(q, tiny, out=s[0])
-    np.log(growth, out=growth)
-    growth *= -0.5 * c.p
-    np.minimum(growth, log_max, out=growth)
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    depth = np.log1p(growth, out=s[1])
-    factor = np.multiply(c.per_p, depth, out=s[2])
-    np.exp(factor, out=factor)
-    factor *= c.gamma
+    growth = 1 / np.expm1(np.minimum(-0.5 * c.p * np.log(np.maximum(q, tiny)), log_max))
+    depth = np.log1p(growth)
+    factor = c.gamma * np.exp(c.per_p * depth)
     return growth, depth, factor
 
 
-def _harden(y: Array, c: Constants, s: Rows) -> Rows:
+def _harden(y: Array, c: Constants) -> Rows:
     """Load over strain, (gamma^p + y^p)^(1/p), after its rise (y/gamma)^(p/2)."""
     tiny = TINY[y.dtype]
-    rise = np.multiply(c.per_gamma, y, out=s[0])
-    np.maximum(rise, tiny, out=rise)
-    np.log(rise, out=rise)
-    rise *= 0.5 * c.p
-    np.exp(rise, out=rise)
-    half = np.maximum(rise, tiny, out=s[1])
-    np.divide(1, half, out=half)
-    np.minimum(half, rise, out=half)
-    power = np.square(half, out=s[1])
-    factor = np.log1p(power, out=s[1])
-    factor *= c.per_p
-    np.exp(factor, out=factor)
-    factor *= np.maximum(y, c.gamma, out=s[2])
+    rise = np.exp(0.5 * c.p * np.log(np.maximum(c.per_gamma * y, tiny)))
+    half = np.minimum(rise, 1 / np.maximum(rise, tiny))
+    power = half**2
+    factor = np.exp(c.per_p * np.log1p(power)) * np.maximum(y, c.gamma)
     return rise, factor
 
 
@@ -388,51 +323,39 @@ def _largest(rows: Rows) -> Array:
 
 
 def _rescaled(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Any, Array]:
-    """Values of ``form`` (or ``known`` ones), the last of them, one over the scale, the square.
+    """Values of ``form``, the last of them, one over the scale, the square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, before
-    anything rounds; elsewhere, and at rest, this scale is one. None says that it is one everywhere.
-    The square comes twice, with the scale that the other values have, and without.
+    anything rounds; elsewhere, and at rest, this scale is one. The square comes twice, with the
+    scale that the other values have, and without.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = known or form(inputs, c, s)
+        *values, square = form(inputs, c)
         low = TINY[square.dtype] * 2**60
-        if square.min() > low and square.max() < 1 / low:
-            return values, square, None, square
         odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
         if not odd.any():
             return values, square, 1.0, square
         power = np.frexp(_largest(inputs))[1]
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
         power += np.frexp(_largest(values))[1] - 1
         deep = int(0.4 * math.log2(low))  # small values stay small, so that unscale does not
         power = np.where(odd, np.maximum(power, 0) + np.minimum(power - deep, 0), 0)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
         unscale = np.ldexp(square.dtype.type(1), power)
         return values, square, unscale, square * unscale * unscale
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Array, Any, Array]:
     """As `_rescaled`, with roots: values, norm, radius, one over the scale, square.
 
     The values and the norm share the scale; the radius and its square are free of it.
     """
-    values, scaled, unscale, square = _rescaled(form, inputs, c, s, known)
-    size = np.sqrt(scaled, out=s[-1])
-    if unscale is None:
-        return values, size, size, None, square
+    values, scaled, unscale, square = _rescaled(form, inputs, c)
+    size = np.sqrt(scaled)
     with np.errstate(over="ignore"):
         radius = size * unscale
     return values, np.maximum(size, TINY[size.dtype]), radius, unscale, square
@@ -498,10 +421,9 @@ def _within_limit(q: Array) -> Array:
 
 def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueError:
     """The error for strains at or past the limit: how many points, the first and its Q."""
-    s = [*np.empty((8, strains[0].size), strains[0].dtype)]
-    rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
+    rest = [*strains[:3], strains[3] - 1]
     with np.errstate(over="ignore", invalid="ignore"):
-        *_, q = _reduce_strains(rest, c, s)
+        *_, q = _reduce_strains(rest, c)
     bad = np.flatnonzero(~(q < 1))
     index = tuple(map(int, np.unravel_index(bad[0], shape)))
     first = f"the first at index {index} with Q = {float(q[bad[0]])!r}"
@@ -557,17 +479,6 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     return list(given)
 
 
-def _scratch(size: int, dtype: Any) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = size + 16  # rows that are a power of two apart would share their places in the cache
-    needed = ROWS * length * dtype.itemsize
-    memory = getattr(KEPT, "memory", None)
-    if memory is None or len(memory) < needed:
-        memory = KEPT.memory = np.empty(needed, np.uint8)
-    rows: Array = memory[:needed].view(dtype).reshape(ROWS, length)
-    return rows[:, :size]
-
-
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
@@ -587,14 +498,12 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = _scratch(size, arrays[0].dtype)
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            work = scratch[:, : part.stop - start]
             rows = [row for a in given for row in a[:, part]]
             try:
-                body(rows, c, work, *(array[..., part] for array in flat))
+                body(rows, c, *(array[..., part] for array in flat))
             except _PastLimit:
                 raise _past_limit([row for a in given for row in a], c, shape) from None
     if not direct:
@@ -633,25 +542,80 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
-def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> bool:
-    """`_strains` where nothing is extreme; else False."""
+def _scratch(count: int, like: Array) -> Array:
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
+    length = like.size + 16  # rows a power of two apart would share their places in the cache
+    needed = count * length * like.itemsize
+    memory = getattr(KEPT, "memory", None)
+    if memory is None or len(memory) < needed:
+        memory = KEPT.memory = np.empty(needed, np.uint8)
+    rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
+    return rows[:, : like.size]
+
+
+def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
+    """Whether all of it lies between the bounds for its type; nan does not."""
+    low, high = within[square.dtype]
+    return bool(low < square[square.argmin()] and square[square.argmax()] < high)
+
+
+def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
+    """Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."""
     k = c.plain
     m1, m2, m3, n3 = loads
-    s = [*work[:3]]
+    extension = np.multiply(k.n3_extends, n3, out=s[0])
+    extension -= np.multiply(k.m3_extends, m3, out=s[1])
+    overload = np.square(m1, out=s[1])
+    overload += np.square(m2, out=s[2])
+    overload *= k.bend_load
+    np.square(extension, out=s[2])
+    s[2] *= k.slack
+    overload += s[2]
+    np.square(m3, out=s[2])
+    s[2] *= k.turn_load
+    overload += s[2]
+    return extension, overload
+
+
+def _q(strains: Rows, c: Constants, s: Rows) -> Rows:
+    """Q as a sum of squares, and the coupled loads of the linear rod over gamma."""
+    k = c.plain
+    u1, u2, u3, v3 = strains
+    stretch = np.subtract(v3, 1, out=s[0])
+    torque = np.multiply(c.iota, stretch, out=s[7])
+    torque += np.multiply(k.turning, u3, out=s[1])
+    slack_pull = np.multiply(k.slack, stretch, out=s[1])
+    q = np.square(u1, out=s[2])
+    q += np.square(u2, out=s[3])
+    q *= k.bending
+    np.square(torque, out=s[3])
+    s[3] *= k.per_turning
+    q += s[3]
+    q += np.multiply(slack_pull, stretch, out=s[0])
+    return torque, slack_pull, q
+
+
+def _spread(matrix: Array, weight: Array, vector: Array) -> None:
+    """weight vector vector^T, on and above the diagonal."""
+    for i, row in enumerate(vector):
+        np.multiply(weight * row, vector[i:], out=matrix[i, i:])
+
+
+def _mirror(matrix: Array) -> None:
+    """What is above the diagonal, below it."""
+    for i in range(1, len(matrix)):
+        matrix[i, :i] = matrix[:i, i]
+
+
+def _strains_plain(loads: Rows, c: Constants, u: Array, v3: Array) -> bool:
+    """`_strains` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3, _ = loads
+    work = _scratch(3, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[0])
-        extension -= np.multiply(k.m3_extends, m3, out=s[1])
-        overload = np.square(m1, out=s[1])
-        overload += np.square(m2, out=s[2])
-        overload *= k.bend_load
-        np.square(extension, out=s[2])
-        s[2] *= k.slack
-        overload += s[2]
-        np.square(m3, out=s[2])
-        s[2] *= k.turn_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[1])
     excess *= 0.5 * c.p
@@ -670,23 +634,17 @@ def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) 
     return True
 
 
-def _strains(loads: Rows, c: Constants, work: Array, u: Array, v3: Array) -> None:
+def _strains(loads: Rows, c: Constants, u: Array, v3: Array) -> None:
     """(u, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n3)."""
-    if _strains_plain(loads, c, work, u, v3):
+    if _strains_plain(loads, c, u, v3):
         return
-    s = [*u, v3, *work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, dilatation, twist, _ = values
-    *_, factor = _soften(y, c, s[7:])
-    reach = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.per_alpha, reach, out=s[4])
-    np.multiply(bend, mu_1, out=u[0])
-    np.multiply(bend, mu_2, out=u[1])
-    turn = np.multiply(c.per_beta, reach, out=s[4])
-    np.multiply(turn, twist, out=u[2])
-    extend = np.multiply(c.per_eta, reach, out=s[10])
-    np.multiply(dilatation, extend, out=v3)
-    v3 += 1
+    *_, factor = _soften(y, c)
+    reach = factor * unscale
+    bend, turn, extend = c.per_alpha * reach, c.per_beta * reach, c.per_eta * reach
+    u[0], u[1], u[2] = bend * mu_1, bend * mu_2, turn * twist
+    v3[...] = dilatation * extend + 1
 
 
 def _strains_at(m: Any, n3: Any, c: Constants) -> Any:
@@ -694,7 +652,7 @@ def _strains_at(m: Any, n3: Any, c: Constants) -> Any:
     (
         m3_extends, n3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft,
         turn_soft, untwist, low, high,
-    ) = c.of_strains
+    ) = c.plain.of_strains
     m1, m2, m3 = m
     extension = n3_extends * n3 - m3_extends * m3
     overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
@@ -726,31 +684,21 @@ def strains(m: Given, n3: Given | float, constants: Constants, out: Pair | None 
     return u, v3
 
 
-def _loads_plain(strains: Rows, c: Constants, work: Array, m: Array, n3: Array) -> bool:
+def _loads_plain(strains: Rows, c: Constants, m: Array, n3: Array) -> bool:
     """`_loads` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, u3, v3 = strains
-    s = [*work[:5]]
+    u1, u2, _, _ = strains
+    work = _scratch(8, strains[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        stretch = np.subtract(v3, 1, out=s[0])
-        torque = np.multiply(c.iota, stretch, out=s[1])
-        torque += np.multiply(k.turning, u3, out=s[2])
-        slack_pull = np.multiply(k.slack, stretch, out=s[2])
-        q = np.square(u1, out=s[3])
-        q += np.square(u2, out=s[4])
-        q *= k.bending
-        np.square(torque, out=s[4])
-        s[4] *= k.per_turning
-        q += s[4]
-        q += np.multiply(slack_pull, stretch, out=s[0])
-    low, high = k.within_q[q.dtype]
-    if not (low < q.min() and q.max() < high):
+        torque, slack_pull, q = _q(strains, c, s)
+    if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[3])
+    growth = np.log(q, out=s[2])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[3])
+    hard = np.log1p(growth, out=s[2])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
@@ -764,31 +712,26 @@ def _loads_plain(strains: Rows, c: Constants, work: Array, m: Array, n3: Array) 
     return True
 
 
-def _loads(strains: Rows, c: Constants, work: Array, m: Array, n3: Array) -> None:
+def _loads(strains: Rows, c: Constants, m: Array, n3: Array) -> None:
     """(m, n3) = gamma (1 - Q^(p/2))^(-1/p) K (u, v3 - 1)."""
-    if _loads_plain(strains, c, work, m, n3):
+    if _loads_plain(strains, c, m, n3):
         return
-    s = [*m, n3, *work]
-    rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
-    values, _, unscale, q = _rescaled(_reduce_strains, rest, c, s)
+    rest = [*strains[:3], strains[3] - 1]
+    values, _, unscale, q = _rescaled(_reduce_strains, rest, c)
     kappa_1, kappa_2, torque, tension = values
     q = _within_limit(q)
-    *_, factor = _stiffen(q, c, s[6:])
-    secant = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.alpha, secant, out=s[4])
-    np.multiply(bend, kappa_1, out=m[0])
-    np.multiply(bend, kappa_2, out=m[1])
-    turn = np.multiply(c.beta, secant, out=s[4])
-    np.multiply(torque, turn, out=m[2])
-    extend = np.multiply(c.eta, secant, out=s[8])
-    np.multiply(extend, tension, out=n3)
+    *_, factor = _stiffen(q, c)
+    secant = factor * unscale
+    bend, turn, extend = c.alpha * secant, c.beta * secant, c.eta * secant
+    m[0], m[1], m[2] = bend * kappa_1, bend * kappa_2, torque * turn
+    n3[...] = extend * tension
 
 
 def _loads_at(u: Any, v3: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
     (
         iota, turning, slack, bending, per_turning, half_p, gamma, minus_per_p, untwist, low, high,
-    ) = c.of_loads
+    ) = c.plain.of_loads
     u1, u2, u3 = u
     stretch = v3 - 1
     torque = iota * stretch + turning * u3
@@ -822,16 +765,14 @@ def loads(u: Given, v3: Given | float, constants: Constants, out: Pair | None = 
     return m, n3
 
 
-def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
+def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
-    s = [*work]
-    rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
-    _, _, x, _, q = _balanced(_reduce_strains, rest, c, s)
+    rest = [*strains[:3], strains[3] - 1]
+    _, _, x, _, q = _balanced(_reduce_strains, rest, c)
     q = _within_limit(q)
-    _, depth, factor = _stiffen(q, c, s[6:])
-    load = np.multiply(factor, x, out=s[8])
-    np.multiply(load, x, out=w)
-    w *= _work_share(depth, c)
+    _, depth, factor = _stiffen(q, c)
+    load = factor * x
+    w[...] = load * x * _work_share(depth, c)
 
 
 def _stored_energy_at(u: Any, v3: Any, c: Constants) -> Any:
@@ -871,17 +812,13 @@ def stored_energy(
     return w
 
 
-def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
+def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
-    s = [*work]
-    _, _, y, _, _ = _balanced(_reduce_loads, loads, c, s)
-    ratio, power, factor = _soften(y, c, s[7:])
-    strain = np.multiply(factor, y, out=s[10])
-    depth = np.log1p(power, out=s[9])
-    depth -= np.multiply(c.p, np.where(y <= c.gamma, 0.0, np.log(ratio)), out=s[8])
-    np.subtract(1, _work_share(depth, c), out=w_star)
-    w_star *= strain
-    w_star *= y
+    _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
+    ratio, power, factor = _soften(y, c)
+    strain = factor * y
+    depth = np.log1p(power) - c.p * np.where(y <= c.gamma, 0.0, np.log(ratio))
+    w_star[...] = strain * y * (1 - _work_share(depth, c))
 
 
 def _complementary_energy_at(m: Any, n3: Any, c: Constants) -> Any:
@@ -923,89 +860,67 @@ def complementary_energy(
     return w_star
 
 
-def _stiffness_plain(strains: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
     """`_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, u3, v3 = strains
-    s = [*work[:8]]
-    r = work[:4]
+    u1, u2, _, _ = strains
+    work = _scratch(9, strains[0])
+    s = [*work]
+    r = work[5:9]
     with np.errstate(over="ignore", invalid="ignore"):
-        stretch = np.subtract(v3, 1, out=s[4])
-        np.multiply(c.iota, stretch, out=r[2])
-        r[2] += np.multiply(k.turning, u3, out=s[5])
-        np.multiply(k.bending, u1, out=r[0])
-        np.multiply(k.bending, u2, out=r[1])
-        slack_pull = np.multiply(k.slack, stretch, out=s[5])
-        np.multiply(k.untwist, r[2], out=r[3])
-        r[3] += slack_pull
-        q = np.square(u1, out=s[6])
-        q += np.square(u2, out=s[7])
-        q *= k.bending
-        np.square(r[2], out=s[7])
-        s[7] *= k.per_turning
-        q += s[7]
-        q += np.multiply(slack_pull, stretch, out=s[5])
-    low, high = k.within_q[q.dtype]
-    if not (low < q.min() and q.max() < high):
+        torque, slack_pull, q = _q(strains, c, s)
+    if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[5])
+    np.multiply(k.bending, u1, out=r[0])
+    np.multiply(k.bending, u2, out=r[1])
+    np.multiply(k.untwist, torque, out=r[3])
+    np.add(slack_pull, r[3], out=r[3])
+    growth = np.log(q, out=s[1])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[4])
+    hard = np.log1p(growth, out=s[0])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    steep = np.multiply(growth, hard, out=s[5])
+    steep = np.multiply(growth, hard, out=s[1])
     steep /= q
-    for i in range(4):
-        np.multiply(steep, r[i], out=s[6])
-        np.multiply(s[6], r[i:], out=stiff[i, i:])
-    np.multiply(k.bending, hard, out=s[5])
-    stiff[0, 0] += s[5]
-    stiff[1, 1] += s[5]
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
-    stiff[2, 3] += np.multiply(c.iota, hard, out=s[5])
-    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[4])
-    for i in range(1, 4):
-        stiff[i, :i] = stiff[:i, i]
+    _spread(stiff, steep, r)
+    np.multiply(k.bending, hard, out=s[1])
+    stiff[0, 0] += s[1]
+    stiff[1, 1] += s[1]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[1])
+    stiff[2, 3] += np.multiply(c.iota, hard, out=s[1])
+    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[0])
+    _mirror(stiff)
     return True
 
 
-def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
+def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u, v3 - 1)/x."""
-    if _stiffness_plain(strains, c, work, stiff):
+    if _stiffness_plain(strains, c, stiff):
         return
-    s = [*work]
-    rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
+    rest = [*strains[:3], strains[3] - 1]
     with np.errstate(over="ignore", invalid="ignore"):
-        kappa_1, kappa_2, torque, tension, q = _reduce_strains(rest, c, s)
+        kappa_1, kappa_2, torque, tension, q = _reduce_strains(rest, c)
     q = _within_limit(q)
-    growth, _, factor = _stiffen(q, c, s[6:])
+    growth, _, factor = _stiffen(q, c)
     tiny = TINY[q.dtype]
-    t = work[:4]
-    steep = np.multiply(factor, growth, out=s[6])
-    x = np.maximum(q, tiny, out=s[5])
-    np.sqrt(x, out=x)
-    per_x = np.divide(1, x, out=s[5])
-    bend_per_x = np.multiply(c.alpha, per_x, out=s[4])
-    np.multiply(bend_per_x, kappa_1, out=t[0])
-    np.multiply(bend_per_x, kappa_2, out=t[1])
-    turn_per_x = np.multiply(c.beta, per_x, out=s[4])
-    np.multiply(torque, turn_per_x, out=t[2])
-    extend_per_x = np.multiply(c.eta, per_x, out=s[5])
-    np.multiply(extend_per_x, tension, out=t[3])
-    for i in range(4):
-        np.multiply(steep, t[i], out=s[5])
-        np.multiply(s[5], t[i:], out=stiff[i, i:])
-    np.multiply(c.alpha**2, factor, out=s[6])
-    stiff[0, 0] += s[6]
-    stiff[1, 1] += s[6]
-    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[6])
-    stiff[2, 3] += np.multiply(c.iota, factor, out=s[6])
-    stiff[3, 3] += np.multiply(c.eta**2, factor, out=s[8])
-    for i in range(1, 4):
-        stiff[i, :i] = stiff[:i, i]
+    t = np.empty_like(stiff[0])
+    steep = factor * growth
+    x = np.sqrt(np.maximum(q, tiny))
+    per_x = 1 / x
+    bend_per_x, turn_per_x, extend_per_x = c.alpha * per_x, c.beta * per_x, c.eta * per_x
+    t[0], t[1], t[2] = bend_per_x * kappa_1, bend_per_x * kappa_2, torque * turn_per_x
+    t[3] = extend_per_x * tension
+    _spread(stiff, steep, t)
+    beside = c.alpha**2 * factor
+    stiff[0, 0] += beside
+    stiff[1, 1] += beside
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 3] += c.iota * factor
+    stiff[3, 3] += c.eta**2 * factor
+    _mirror(stiff)
 
 
 def _stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
@@ -1030,103 +945,75 @@ def stiffness(u: Given, v3: Given | float, constants: Constants, out: Array | No
 
 
 def _loads_and_stiffness_plain(
-    strains: Rows, c: Constants, work: Array, m: Array, n3: Array, stiff: Array
+    strains: Rows, c: Constants, m: Array, n3: Array, stiff: Array
 ) -> bool:
     """`_loads_and_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, u3, v3 = strains
-    s = [*work[:9]]
-    r = work[:4]
+    u1, u2, _, _ = strains
+    work = _scratch(9, strains[0])
+    s = [*work]
+    r = work[5:9]
     with np.errstate(over="ignore", invalid="ignore"):
-        stretch = np.subtract(v3, 1, out=s[4])
-        np.multiply(c.iota, stretch, out=r[2])
-        r[2] += np.multiply(k.turning, u3, out=s[5])
-        slack_pull = np.multiply(k.slack, stretch, out=s[5])
-        q = np.square(u1, out=s[6])
-        q += np.square(u2, out=s[7])
-        q *= k.bending
-        np.square(r[2], out=s[7])
-        s[7] *= k.per_turning
-        q += s[7]
-        q += np.multiply(slack_pull, stretch, out=s[4])
-    low, high = k.within_q[q.dtype]
-    if not (low < q.min() and q.max() < high):
+        torque, slack_pull, q = _q(strains, c, s)
+    if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[4])
+    growth = np.log(q, out=s[0])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[7])
+    hard = np.log1p(growth, out=s[3])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    bend = np.multiply(k.bending, hard, out=s[8])
+    bend = np.multiply(k.bending, hard, out=s[4])
     np.multiply(bend, u1, out=m[0])
     np.multiply(bend, u2, out=m[1])
-    np.multiply(hard, r[2], out=m[2])
-    np.multiply(k.untwist, r[2], out=r[3])
-    r[3] += slack_pull
+    np.multiply(hard, torque, out=m[2])
+    np.multiply(k.untwist, torque, out=r[3])
+    np.add(slack_pull, r[3], out=r[3])
     np.multiply(hard, r[3], out=n3)
     np.multiply(k.bending, u1, out=r[0])
     np.multiply(k.bending, u2, out=r[1])
-    steep = np.multiply(growth, hard, out=s[4])
+    steep = np.multiply(growth, hard, out=s[0])
     steep /= q
-    for i in range(4):
-        np.multiply(steep, r[i], out=s[6])
-        np.multiply(s[6], r[i:], out=stiff[i, i:])
+    _spread(stiff, steep, r)
     stiff[0, 0] += bend
     stiff[1, 1] += bend
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[8])
-    stiff[2, 3] += np.multiply(c.iota, hard, out=s[8])
-    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[7])
-    for i in range(1, 4):
-        stiff[i, :i] = stiff[:i, i]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[4])
+    stiff[2, 3] += np.multiply(c.iota, hard, out=s[4])
+    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[3])
+    _mirror(stiff)
     return True
 
 
-def _loads_and_stiffness(
-    strains: Rows, c: Constants, work: Array, m: Array, n3: Array, stiff: Array
-) -> None:
+def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n3: Array, stiff: Array) -> None:
     """(m, n3) = factor K (u, v3 - 1) and D^2 W = factor (K + growth t t^T), as apart."""
-    if _loads_and_stiffness_plain(strains, c, work, m, n3, stiff):
+    if _loads_and_stiffness_plain(strains, c, m, n3, stiff):
         return
-    s = [*work]
-    rest = [*strains[:3], np.subtract(strains[3], 1, out=s[-2])]
-    values, size, _, unscale, q = _balanced(_reduce_strains, rest, c, s)
+    rest = [*strains[:3], strains[3] - 1]
+    values, size, _, unscale, q = _balanced(_reduce_strains, rest, c)
     kappa_1, kappa_2, torque, tension = values
     q = _within_limit(q)
-    growth, _, factor = _stiffen(q, c, s[6:])
+    growth, _, factor = _stiffen(q, c)
     tiny = TINY[q.dtype]
-    t = work[:4]
-    secant = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.alpha, secant, out=s[4])
-    np.multiply(bend, kappa_1, out=m[0])
-    np.multiply(bend, kappa_2, out=m[1])
-    turn = np.multiply(c.beta, secant, out=s[4])
-    np.multiply(torque, turn, out=m[2])
-    extend = np.multiply(c.eta, secant, out=s[4])
-    np.multiply(extend, tension, out=n3)
-    steep = np.multiply(factor, growth, out=s[6])
-    per_size = np.maximum(size, np.sqrt(tiny), out=s[4])
-    np.divide(1, per_size, out=per_size)
-    bend_per_size = np.multiply(c.alpha, per_size, out=s[5])
-    np.multiply(bend_per_size, kappa_1, out=t[0])
-    np.multiply(bend_per_size, kappa_2, out=t[1])
-    turn_per_size = np.multiply(c.beta, per_size, out=s[5])
-    np.multiply(torque, turn_per_size, out=t[2])
-    extend_per_size = np.multiply(c.eta, per_size, out=s[4])
-    np.multiply(extend_per_size, tension, out=t[3])
-    for i in range(4):
-        np.multiply(steep, t[i], out=s[4])
-        np.multiply(s[4], t[i:], out=stiff[i, i:])
-    np.multiply(c.alpha**2, factor, out=s[6])
-    stiff[0, 0] += s[6]
-    stiff[1, 1] += s[6]
-    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[6])
-    stiff[2, 3] += np.multiply(c.iota, factor, out=s[6])
-    stiff[3, 3] += np.multiply(c.eta**2, factor, out=s[8])
-    for i in range(1, 4):
-        stiff[i, :i] = stiff[:i, i]
+    t = np.empty_like(stiff[0])
+    steep, secant = factor * growth, factor * unscale
+    per_size = 1 / np.maximum(size, np.sqrt(tiny))
+    bend_per_size, turn_per_size = c.alpha * per_size, c.beta * per_size
+    extend_per_size, bend, turn = c.eta * per_size, c.alpha * secant, c.beta * secant
+    extend = c.eta * secant
+    t[0], t[1], t[2] = bend_per_size * kappa_1, bend_per_size * kappa_2, torque * turn_per_size
+    t[3] = extend_per_size * tension
+    m[0], m[1], m[2] = bend * kappa_1, bend * kappa_2, torque * turn
+    n3[...] = extend * tension
+    _spread(stiff, steep, t)
+    beside = c.alpha**2 * factor
+    stiff[0, 0] += beside
+    stiff[1, 1] += beside
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 3] += c.iota * factor
+    stiff[3, 3] += c.eta**2 * factor
+    _mirror(stiff)
 
 
 def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
@@ -1134,13 +1021,13 @@ def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
     (
         iota, turning, slack, bending, untwist, per_turning, half_p, gamma, minus_per_p, stretching,
         low, high,
-    ) = c.of_loads_and_stiffness
+    ) = c.plain.of_loads_and_stiffness
     u1, u2, u3 = u
     stretch = v3 - 1
-    r3 = iota * stretch + turning * u3
+    torque = iota * stretch + turning * u3
     slack_pull, r1, r2 = slack * stretch, bending * u1, bending * u2
-    r6 = untwist * r3 + slack_pull
-    q = bending * (u1 * u1 + u2 * u2) + per_turning * r3 * r3 + slack_pull * stretch
+    r6 = slack_pull + untwist * torque
+    q = bending * (u1 * u1 + u2 * u2) + per_turning * torque * torque + slack_pull * stretch
     if type(q) is not float or (
         not low < q < 1 and (q or low > high or any((u1, u2, u3, stretch)))
     ):
@@ -1151,11 +1038,11 @@ def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
     hard = gamma * left**minus_per_p
     steep = growth * hard / q
     bend, steep_1, steep_2 = bending * hard, r1 * steep, r2 * steep
-    steep_3, steep_4 = r3 * steep, r6 * steep
-    k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, r3 * steep_1
+    steep_3, steep_4 = steep * torque, r6 * steep
+    k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque
     k14 = r6 * steep_1
-    k22, k23, k24 = bend + r2 * steep_2, r3 * steep_2, r6 * steep_2
-    k33, k34 = turning * hard + r3 * steep_3, iota * hard + r6 * steep_3
+    k22, k23, k24 = bend + r2 * steep_2, steep_2 * torque, r6 * steep_2
+    k33, k34 = turning * hard + steep_3 * torque, iota * hard + r6 * steep_3
     k44 = stretching * hard + r6 * steep_4
     stiff = (
         (k11, k12, k13, k14),
@@ -1163,7 +1050,7 @@ def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
         (k13, k23, k33, k34),
         (k14, k24, k34, k44),
     )
-    return (bend * u1, bend * u2, hard * r3), hard * r6, stiff
+    return (bend * u1, bend * u2, hard * torque), hard * r6, stiff
 
 
 def loads_and_stiffness(
@@ -1188,80 +1075,40 @@ def loads_and_stiffness(
     return m, n3, stiff
 
 
-def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n3)/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
-    s = [*work]
-    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, dilatation, twist, nu_3 = values
-    _, power, factor = _soften(y, c, s[7:])
+    _, power, factor = _soften(y, c)
     tiny = TINY[y.dtype]
-    d = work[11:15]
-    share = np.add(power, 1, out=s[6])
-    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
-    steep = np.negative(factor, out=s[7])
-    steep *= share
-    per_size = np.divide(1, size, out=s[6])
-    a1 = np.add(mu_1, tiny, out=s[0])
-    a1 *= per_size
-    np.multiply(c.per_alpha, a1, out=d[0])
-    a2 = np.multiply(mu_2, per_size, out=s[1])
-    np.multiply(c.per_alpha, a2, out=d[1])
-    c3 = np.multiply(per_size, twist, out=s[2])
-    np.multiply(c.per_beta, c3, out=d[2])
-    c6 = np.multiply(dilatation, per_size, out=s[3])
-    np.multiply(c.per_eta, c6, out=d[3])
-    for i in range(4):
-        np.multiply(steep, d[i], out=s[8])
-        np.multiply(s[8], d[i:], out=soft[i, i:])
-    remain = np.add(power, 1, out=s[7])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
-    aa1 = np.square(a1, out=s[0])
-    aa2 = np.square(a2, out=s[1])
-    a3 = np.multiply(mu_3, per_size, out=s[4])
-    aa3 = np.square(a3, out=s[9])
-    cc6 = np.square(c6, out=s[8])
-    coupled = np.multiply(c.gap, cc6, out=s[15])
-    np.add(aa3, coupled, out=coupled)
-    np.multiply(aa1, remain, out=soft[0, 0])
-    soft[0, 0] += aa2
-    soft[0, 0] += coupled
-    soft[0, 0] *= c.per_alpha**2
-    soft[0, 0] *= factor
-    np.multiply(aa2, remain, out=soft[1, 1])
-    np.add(aa1, soft[1, 1], out=soft[1, 1])
-    soft[1, 1] += coupled
-    soft[1, 1] *= c.per_alpha**2
-    soft[1, 1] *= factor
-    b3 = np.multiply(nu_3, per_size, out=s[5])
-    across = np.add(aa1, aa2, out=s[0])
-    np.square(c3, out=soft[2, 2])
-    soft[2, 2] *= remain
-    np.square(b3, out=s[1])
-    np.add(across, s[1], out=s[1])
-    s[1] *= c.per_gap
-    soft[2, 2] += s[1]
-    soft[2, 2] *= c.per_beta**2
-    soft[2, 2] *= factor
-    np.multiply(c3, c6, out=soft[2, 3])
-    soft[2, 3] *= remain
-    np.multiply(a3, b3, out=s[4])
-    s[4] += np.multiply(c.chirality, across, out=s[5])
-    s[4] *= c.per_gap
-    soft[2, 3] -= s[4]
-    soft[2, 3] *= c.per_beta * c.per_eta
-    soft[2, 3] *= factor
-    np.multiply(cc6, remain, out=soft[3, 3])
-    np.add(aa3, across, out=s[9])
-    s[9] *= c.per_gap
-    soft[3, 3] += s[9]
-    soft[3, 3] *= c.per_eta**2
-    soft[3, 3] *= factor
-    for i in range(1, 4):
-        soft[i, :i] = soft[:i, i]
+    d = np.empty_like(soft[0])
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    per_size = 1 / size
+    a1, share = per_size * (mu_1 + tiny), np.where(y <= c.gamma, power, 1.0) / (power + 1)
+    aa1 = a1**2
+    a2, a3, b3 = mu_2 * per_size, mu_3 * per_size, nu_3 * per_size
+    aa2, aa3 = a2**2, a3**2
+    c3, c6 = per_size * twist, dilatation * per_size
+    cc6 = c6**2
+    across = aa1 + aa2
+    coupled = aa3 + c.gap * cc6
+    steep = -factor * share
+    d[0], d[1], d[2] = c.per_alpha * a1, c.per_alpha * a2, c.per_beta * c3
+    d[3] = c.per_eta * c6
+    _spread(soft, steep, d)
+    soft[0, 0] = c.per_alpha**2 * factor * (aa1 * remain + aa2 + coupled)
+    soft[1, 1] = c.per_alpha**2 * factor * (aa1 + aa2 * remain + coupled)
+    soft[2, 2] = c.per_beta**2 * factor * (c3**2 * remain + c.per_gap * (across + b3**2))
+    soft[2, 3] = (
+        c.per_beta * c.per_eta * factor
+        * (c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across))
+    )
+    soft[3, 3] = c.per_eta**2 * factor * (cc6 * remain + c.per_gap * (aa3 + across))
+    _mirror(soft)
 
 
 def _compliance_at(m: Any, n3: Any, c: Constants) -> Any:
@@ -1332,26 +1179,16 @@ def compliance(
 
 
 def _strains_and_gap_plain(
-    loads: Rows, c: Constants, work: Array, u: Array, v3: Array, limit_gap: Array
+    loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array
 ) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3, n3 = loads
-    s = [*work[:4]]
+    m1, m2, m3, _ = loads
+    work = _scratch(4, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[0])
-        extension -= np.multiply(k.m3_extends, m3, out=s[1])
-        overload = np.square(m1, out=s[1])
-        overload += np.square(m2, out=s[2])
-        overload *= k.bend_load
-        np.square(extension, out=s[2])
-        s[2] *= k.slack
-        overload += s[2]
-        np.square(m3, out=s[2])
-        s[2] *= k.turn_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[1])
     excess *= 0.5 * c.p
@@ -1372,27 +1209,18 @@ def _strains_and_gap_plain(
     return True
 
 
-def _strains_and_gap(
-    loads: Rows, c: Constants, work: Array, u: Array, v3: Array, limit_gap: Array
-) -> None:
+def _strains_and_gap(loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    if _strains_and_gap_plain(loads, c, work, u, v3, limit_gap):
+    if _strains_and_gap_plain(loads, c, u, v3, limit_gap):
         return
-    s = [*work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, dilatation, twist, _ = values
-    _, power, factor = _soften(y, c, s[7:])
-    reach = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.per_alpha, reach, out=s[4])
-    np.multiply(bend, mu_1, out=u[0])
-    np.multiply(bend, mu_2, out=u[1])
-    turn = np.multiply(c.per_beta, reach, out=s[1])
-    np.multiply(turn, twist, out=u[2])
-    extend = np.multiply(c.per_eta, reach, out=s[10])
-    np.multiply(dilatation, extend, out=v3)
-    v3 += 1
-    remain = np.add(power, 1, out=s[10])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
+    _, power, factor = _soften(y, c)
+    reach = factor * unscale
+    bend, turn, extend = c.per_alpha * reach, c.per_beta * reach, c.per_eta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    u[0], u[1], u[2] = bend * mu_1, bend * mu_2, turn * twist
+    v3[...] = dilatation * extend + 1
     limit_gap[...] = remain
 
 
@@ -1401,7 +1229,7 @@ def _strains_and_gap_at(m: Any, n3: Any, c: Constants) -> Any:
     (
         m3_extends, n3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft,
         turn_soft, untwist, low, high,
-    ) = c.of_strains_and_gap
+    ) = c.plain.of_strains_and_gap
     m1, m2, m3 = m
     extension = n3_extends * n3 - m3_extends * m3
     overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
@@ -1440,84 +1268,63 @@ def strains_and_gap(
     return u, v3, limit_gap
 
 
-def _stiffness_at_loads_plain(loads: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
     """`_stiffness_at_loads` where nothing is extreme; else False."""
     k = c.plain
     m1, m2, m3, n3 = loads
-    s = [*work[:7]]
-    h = work[:4]
+    work = _scratch(7, loads[0])
+    s = [*work]
+    h = work[3:7]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[4])
-        extension -= np.multiply(k.m3_extends, m3, out=s[5])
-        overload = np.square(m1, out=s[5])
-        overload += np.square(m2, out=s[6])
-        overload *= k.bend_load
-        np.square(extension, out=s[4])
-        s[4] *= k.slack
-        overload += s[4]
-        np.square(m3, out=s[4])
-        s[4] *= k.turn_load
-        overload += s[4]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        *_, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[4])
+    excess = np.log(overload, out=s[0])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    hard = np.log1p(excess, out=s[6])
+    hard = np.log1p(excess, out=s[2])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    lift = np.multiply(excess, hard, out=s[4])
+    lift = np.multiply(excess, hard, out=s[0])
     lift /= overload
     np.multiply(k.per_gamma, m1, out=h[0])
     np.multiply(k.per_gamma, m2, out=h[1])
     np.multiply(k.per_gamma, m3, out=h[2])
     np.multiply(k.per_gamma, n3, out=h[3])
-    for i in range(4):
-        np.multiply(lift, h[i], out=s[5])
-        np.multiply(s[5], h[i:], out=stiff[i, i:])
-    np.multiply(k.bending, hard, out=s[4])
-    stiff[0, 0] += s[4]
-    stiff[1, 1] += s[4]
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[4])
-    stiff[2, 3] += np.multiply(c.iota, hard, out=s[4])
-    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[6])
-    for i in range(1, 4):
-        stiff[i, :i] = stiff[:i, i]
+    _spread(stiff, lift, h)
+    np.multiply(k.bending, hard, out=s[0])
+    stiff[0, 0] += s[0]
+    stiff[1, 1] += s[0]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
+    stiff[2, 3] += np.multiply(c.iota, hard, out=s[0])
+    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[2])
+    _mirror(stiff)
     return True
 
 
-def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) -> None:
+def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m, n3)/y, y^2 = Q*."""
-    if _stiffness_at_loads_plain(loads, c, work, stiff):
+    if _stiffness_at_loads_plain(loads, c, stiff):
         return
-    s = [*work]
-    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, _, _, nu_3 = values
-    rise, factor = _harden(y, c, s[7:])
+    rise, factor = _harden(y, c)
     tiny = TINY[y.dtype]
-    h = work[9:13]
-    rise_per_size = np.maximum(size, np.sqrt(tiny), out=s[2])
-    np.divide(rise, rise_per_size, out=rise_per_size)
-    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[7])
-    np.multiply(bend_rise, mu_1, out=h[0])
-    np.multiply(bend_rise, mu_2, out=h[1])
-    turn_rise = np.multiply(c.beta, rise_per_size, out=s[1])
-    np.multiply(mu_3, turn_rise, out=h[2])
-    extend_rise = np.multiply(c.eta, rise_per_size, out=s[2])
-    np.multiply(extend_rise, nu_3, out=h[3])
-    for i in range(4):
-        np.multiply(factor, h[i], out=s[5])
-        np.multiply(s[5], h[i:], out=stiff[i, i:])
-    np.multiply(c.alpha**2, factor, out=s[5])
-    stiff[0, 0] += s[5]
-    stiff[1, 1] += s[5]
-    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[5])
-    stiff[2, 3] += np.multiply(c.iota, factor, out=s[5])
-    stiff[3, 3] += np.multiply(c.eta**2, factor, out=s[8])
-    for i in range(1, 4):
-        stiff[i, :i] = stiff[:i, i]
+    h = np.empty_like(stiff[0])
+    rise_per_size = rise / np.maximum(size, np.sqrt(tiny))
+    bend_rise, turn_rise = c.alpha * rise_per_size, c.beta * rise_per_size
+    extend_rise = c.eta * rise_per_size
+    h[0], h[1], h[2] = bend_rise * mu_1, bend_rise * mu_2, mu_3 * turn_rise
+    h[3] = extend_rise * nu_3
+    _spread(stiff, factor, h)
+    beside = c.alpha**2 * factor
+    stiff[0, 0] += beside
+    stiff[1, 1] += beside
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 3] += c.iota * factor
+    stiff[3, 3] += c.eta**2 * factor
+    _mirror(stiff)
 
 
 def _stiffness_at_loads_at(m: Any, n3: Any, c: Constants) -> Any:
@@ -1525,7 +1332,7 @@ def _stiffness_at_loads_at(m: Any, n3: Any, c: Constants) -> Any:
     (
         m3_extends, n3_extends, bend_load, slack, turn_load, half_p, gamma, per_p, per_gamma,
         bending, turning, iota, stretching, low, high,
-    ) = c.of_stiffness_at_loads
+    ) = c.plain.of_stiffness_at_loads
     m1, m2, m3 = m
     extension = n3_extends * n3 - m3_extends * m3
     overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3

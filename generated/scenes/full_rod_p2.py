@@ -53,7 +53,6 @@ Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
 Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
-ROWS = 23  # of scratch
 KEPT = threading.local()  # scratch, from call to call
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LEAST = 2.0**-1022  # the smallest normal number, for one point
@@ -129,30 +128,9 @@ class Constants:
         return Plain(self)
 
     @cached_property
-    def of_strains(self) -> tuple[float, ...]:
-        """What `strains` of one point takes."""
-        return (
-            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load,
-            self.plain.shear_load, self.plain.slack, self.plain.turn_load, self.plain.bend_soft,
-            self.plain.shear_soft, self.plain.turn_soft, self.plain.untwist,
-            *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
-    def of_loads(self) -> tuple[float, ...]:
-        """What `loads` of one point takes."""
-        return (
-            self.iota, self.plain.turning, self.plain.slack, self.plain.bending,
-            self.plain.per_turning, self.plain.shearing, self.gamma, self.plain.untwist,
-            *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
     def of_stored_energy(self) -> tuple[float, ...]:
         """What `stored_energy` of one point takes."""
-        return (
-            self.alpha, self.beta, self.zeta, self.eta, self.chirality, self.gap, self.gamma,
-        )
+        return (self.alpha, self.beta, self.zeta, self.eta, self.chirality, self.gap, self.gamma)
 
     @cached_property
     def of_complementary_energy(self) -> tuple[float, ...]:
@@ -163,15 +141,6 @@ class Constants:
         )
 
     @cached_property
-    def of_loads_and_stiffness(self) -> tuple[float, ...]:
-        """What `loads_and_stiffness` of one point takes."""
-        return (
-            self.iota, self.plain.turning, self.plain.slack, self.plain.bending,
-            self.plain.shearing, self.plain.untwist, self.plain.per_turning, self.gamma,
-            self.plain.stretching, *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
     def of_compliance(self) -> tuple[float, ...]:
         """What `compliance` of one point takes."""
         return (
@@ -179,26 +148,6 @@ class Constants:
             self.n3_dilates, self.chirality, self.gap, self.gamma, self.per_alpha**2,
             self.per_beta**2, self.per_gap, self.per_beta * self.per_eta, self.per_zeta**2,
             self.per_eta**2,
-        )
-
-    @cached_property
-    def of_strains_and_gap(self) -> tuple[float, ...]:
-        """What `strains_and_gap` of one point takes."""
-        return (
-            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load,
-            self.plain.shear_load, self.plain.slack, self.plain.turn_load, self.plain.bend_soft,
-            self.plain.shear_soft, self.plain.turn_soft, self.plain.untwist,
-            *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
-    def of_stiffness_at_loads(self) -> tuple[float, ...]:
-        """What `stiffness_at_loads` of one point takes."""
-        return (
-            self.plain.m3_extends, self.plain.n3_extends, self.plain.bend_load,
-            self.plain.shear_load, self.plain.slack, self.plain.turn_load, self.gamma,
-            self.plain.per_gamma, self.plain.bending, self.plain.turning, self.iota,
-            self.plain.shearing, self.plain.stretching, *self.plain.room[DOUBLE],
         )
 
 
@@ -237,6 +186,29 @@ class Plain:
             self.within_overload[kind] = overload if even else (1.0, 0.0)
             q = (1 / span, 0.9990234375)
             self.within_q[kind] = q if even else (1.0, 0.0)
+        self.of_strains = (
+            self.m3_extends, self.n3_extends, self.bend_load, self.shear_load, self.slack,
+            self.turn_load, self.bend_soft, self.shear_soft, self.turn_soft, self.untwist,
+            *self.room[DOUBLE],
+        )
+        self.of_loads = (
+            c.iota, self.turning, self.slack, self.bending, self.per_turning, self.shearing,
+            c.gamma, self.untwist, *self.room[DOUBLE],
+        )
+        self.of_loads_and_stiffness = (
+            c.iota, self.turning, self.slack, self.bending, self.shearing, self.untwist,
+            self.per_turning, c.gamma, self.stretching, *self.room[DOUBLE],
+        )
+        self.of_strains_and_gap = (
+            self.m3_extends, self.n3_extends, self.bend_load, self.shear_load, self.slack,
+            self.turn_load, self.bend_soft, self.shear_soft, self.turn_soft, self.untwist,
+            *self.room[DOUBLE],
+        )
+        self.of_stiffness_at_loads = (
+            self.m3_extends, self.n3_extends, self.bend_load, self.shear_load, self.slack,
+            self.turn_load, c.gamma, self.per_gamma, self.bending, self.turning, c.iota,
+            self.shearing, self.stretching, *self.room[DOUBLE],
+        )
 
 
 def _rounded(ratio: Fraction) -> float:
@@ -244,84 +216,52 @@ def _rounded(ratio: Fraction) -> float:
     return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
-def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
     """Loads over their moduli, the linear rod's strains, and Q* in squares."""
     m1, m2, m3, n1, n2, n3 = loads
-    mu_1 = np.multiply(c.per_alpha, m1, out=s[0])
-    mu_2 = np.multiply(c.per_alpha, m2, out=s[1])
-    mu_3 = np.multiply(c.per_beta, m3, out=s[6])
-    nu_1 = np.multiply(c.per_zeta, n1, out=s[3])
-    nu_2 = np.multiply(c.per_zeta, n2, out=s[4])
-    dilatation = np.multiply(c.n3_dilates, n3, out=s[5])
-    dilatation -= np.multiply(c.m3_contracts, m3, out=s[7])
-    twist = np.multiply(c.chirality, dilatation, out=s[2])
-    np.subtract(mu_3, twist, out=twist)
-    nu_3 = np.multiply(c.per_eta, n3, out=s[7])
-    q_star = np.square(dilatation, out=s[8])
-    q_star *= c.gap
-    q_star += np.square(mu_1, out=s[9])
-    q_star += np.square(mu_2, out=s[9])
-    q_star += np.square(mu_3, out=s[9])
-    q_star += np.square(nu_1, out=s[9])
-    q_star += np.square(nu_2, out=s[9])
+    mu_1, mu_2, mu_3 = c.per_alpha * m1, c.per_alpha * m2, c.per_beta * m3
+    nu_1, nu_2, nu_3 = c.per_zeta * n1, c.per_zeta * n2, c.per_eta * n3
+    dilatation = c.n3_dilates * n3 - c.m3_contracts * m3
+    twist = mu_3 - c.chirality * dilatation
+    q_star = c.gap * dilatation**2 + mu_1**2 + mu_2**2 + mu_3**2 + nu_1**2 + nu_2**2
     return mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3, q_star
 
 
-def _soften(y: Array, c: Constants, s: Rows) -> Rows:
+def _soften(y: Array, c: Constants) -> Rows:
     """Strain over load, (gamma^2 + y^2)^(-1/2), by the ratio of gamma and y."""
-    larger = np.maximum(y, c.gamma, out=s[0])
-    ratio = np.minimum(y, c.gamma, out=s[1])
-    ratio /= larger
-    power = np.square(ratio, out=s[1])
-    factor = np.divide(1, larger, out=s[0])
-    np.add(power, 1, out=s[2])
-    np.sqrt(s[2], out=s[2])
-    factor /= s[2]
+    larger = np.maximum(y, c.gamma)
+    ratio = np.minimum(y, c.gamma) / larger
+    power = ratio**2
+    factor = 1 / larger / np.sqrt(power + 1)
     return power, factor
 
 
-def _reduce_strains(rest: Rows, c: Constants, s: Rows) -> Rows:
+def _reduce_strains(rest: Rows, c: Constants) -> Rows:
     """Strains times their moduli, the linear rod's loads, and Q in squares."""
     u1, u2, u3, v1, v2, stretch = rest
-    kappa_1 = np.multiply(c.alpha, u1, out=s[0])
-    kappa_2 = np.multiply(c.alpha, u2, out=s[1])
-    kappa_3 = np.multiply(c.beta, u3, out=s[6])
-    lam_1 = np.multiply(c.zeta, v1, out=s[3])
-    lam_2 = np.multiply(c.zeta, v2, out=s[4])
-    lam_3 = np.multiply(c.eta, stretch, out=s[7])
-    torque = np.multiply(c.chirality, lam_3, out=s[2])
-    torque += kappa_3
-    tension = np.multiply(c.chirality, torque, out=s[5])
-    tension += np.multiply(c.gap, lam_3, out=s[6])
-    q = np.square(lam_3, out=s[7])
-    q *= c.gap
-    q += np.square(kappa_1, out=s[6])
-    q += np.square(kappa_2, out=s[6])
-    q += np.square(lam_1, out=s[6])
-    q += np.square(lam_2, out=s[6])
-    q += np.square(torque, out=s[6])
+    kappa_1, kappa_2, kappa_3 = c.alpha * u1, c.alpha * u2, c.beta * u3
+    lam_1, lam_2, lam_3 = c.zeta * v1, c.zeta * v2, c.eta * stretch
+    torque = c.chirality * lam_3 + kappa_3
+    tension = c.chirality * torque + c.gap * lam_3
+    q = c.gap * lam_3**2 + kappa_1**2 + kappa_2**2 + lam_1**2 + lam_2**2 + torque**2
     return kappa_1, kappa_2, lam_1, lam_2, torque, tension, q
 
 
-def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
+def _stiffen(q: Array, c: Constants) -> Rows:
     """Load over strain, gamma (1 - Q)^(-1/2)."""
-    left = np.subtract(1, q, out=s[0])
-    root = np.sqrt(left, out=s[1])
-    factor = np.divide(c.gamma, root, out=s[2])
+    left = 1 - q
+    root = np.sqrt(left)
+    factor = c.gamma / root
     return left, root, factor
 
 
-def _harden(y: Array, c: Constants, s: Rows) -> Rows:
+def _harden(y: Array, c: Constants) -> Rows:
     """Load over strain, (gamma^2 + y^2)^(1/2), after its rise y/gamma."""
     tiny = TINY[y.dtype]
-    rise = np.multiply(c.per_gamma, y, out=s[0])
-    half = np.maximum(rise, tiny, out=s[1])
-    np.divide(1, half, out=half)
-    np.minimum(half, rise, out=half)
-    power = np.square(half, out=s[1])
-    factor = np.add(power, 1, out=s[1])
-    np.sqrt(factor, out=factor)
-    factor *= np.maximum(y, c.gamma, out=s[2])
+    rise = c.per_gamma * y
+    half = np.minimum(rise, 1 / np.maximum(rise, tiny))
+    power = half**2
+    factor = np.sqrt(power + 1) * np.maximum(y, c.gamma)
     return rise, factor
 
 
@@ -332,51 +272,39 @@ def _largest(rows: Rows) -> Array:
 
 
 def _rescaled(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Any, Array]:
-    """Values of ``form`` (or ``known`` ones), the last of them, one over the scale, the square.
+    """Values of ``form``, the last of them, one over the scale, the square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, before
-    anything rounds; elsewhere, and at rest, this scale is one. None says that it is one everywhere.
-    The square comes twice, with the scale that the other values have, and without.
+    anything rounds; elsewhere, and at rest, this scale is one. The square comes twice, with the
+    scale that the other values have, and without.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = known or form(inputs, c, s)
+        *values, square = form(inputs, c)
         low = TINY[square.dtype] * 2**60
-        if square.min() > low and square.max() < 1 / low:
-            return values, square, None, square
         odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
         if not odd.any():
             return values, square, 1.0, square
         power = np.frexp(_largest(inputs))[1]
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
         power += np.frexp(_largest(values))[1] - 1
         deep = int(0.4 * math.log2(low))  # small values stay small, so that unscale does not
         power = np.where(odd, np.maximum(power, 0) + np.minimum(power - deep, 0), 0)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
         unscale = np.ldexp(square.dtype.type(1), power)
         return values, square, unscale, square * unscale * unscale
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Array, Any, Array]:
     """As `_rescaled`, with roots: values, norm, radius, one over the scale, square.
 
     The values and the norm share the scale; the radius and its square are free of it.
     """
-    values, scaled, unscale, square = _rescaled(form, inputs, c, s, known)
-    size = np.sqrt(scaled, out=s[-1])
-    if unscale is None:
-        return values, size, size, None, square
+    values, scaled, unscale, square = _rescaled(form, inputs, c)
+    size = np.sqrt(scaled)
     with np.errstate(over="ignore"):
         radius = size * unscale
     return values, np.maximum(size, TINY[size.dtype]), radius, unscale, square
@@ -395,10 +323,9 @@ def _within_limit(q: Array) -> Array:
 
 def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueError:
     """The error for strains at or past the limit: how many points, the first and its Q."""
-    s = [*np.empty((10, strains[0].size), strains[0].dtype)]
-    rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
+    rest = [*strains[:5], strains[5] - 1]
     with np.errstate(over="ignore", invalid="ignore"):
-        *_, q = _reduce_strains(rest, c, s)
+        *_, q = _reduce_strains(rest, c)
     bad = np.flatnonzero(~(q < 1))
     index = tuple(map(int, np.unravel_index(bad[0], shape)))
     first = f"the first at index {index} with Q = {float(q[bad[0]])!r}"
@@ -454,17 +381,6 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     return list(given)
 
 
-def _scratch(size: int, dtype: Any) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = size + 16  # rows that are a power of two apart would share their places in the cache
-    needed = ROWS * length * dtype.itemsize
-    memory = getattr(KEPT, "memory", None)
-    if memory is None or len(memory) < needed:
-        memory = KEPT.memory = np.empty(needed, np.uint8)
-    rows: Array = memory[:needed].view(dtype).reshape(ROWS, length)
-    return rows[:, :size]
-
-
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
@@ -484,14 +400,12 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = _scratch(size, arrays[0].dtype)
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            work = scratch[:, : part.stop - start]
             rows = [row for a in given for row in a[:, part]]
             try:
-                body(rows, c, work, *(array[..., part] for array in flat))
+                body(rows, c, *(array[..., part] for array in flat))
             except _PastLimit:
                 raise _past_limit([row for a in given for row in a], c, shape) from None
     if not direct:
@@ -530,29 +444,88 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
-def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> bool:
-    """`_strains` where nothing is extreme; else False."""
+def _scratch(count: int, like: Array) -> Array:
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
+    length = like.size + 16  # rows a power of two apart would share their places in the cache
+    needed = count * length * like.itemsize
+    memory = getattr(KEPT, "memory", None)
+    if memory is None or len(memory) < needed:
+        memory = KEPT.memory = np.empty(needed, np.uint8)
+    rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
+    return rows[:, : like.size]
+
+
+def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
+    """Whether all of it lies between the bounds for its type; nan does not."""
+    low, high = within[square.dtype]
+    return bool(low < square[square.argmin()] and square[square.argmax()] < high)
+
+
+def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
+    """Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."""
     k = c.plain
     m1, m2, m3, n1, n2, n3 = loads
-    s = [*work[:4]]
+    extension = np.multiply(k.n3_extends, n3, out=s[0])
+    extension -= np.multiply(k.m3_extends, m3, out=s[1])
+    overload = np.square(m1, out=s[1])
+    overload += np.square(m2, out=s[2])
+    overload *= k.bend_load
+    np.square(extension, out=s[2])
+    s[2] *= k.slack
+    overload += s[2]
+    np.square(m3, out=s[2])
+    s[2] *= k.turn_load
+    overload += s[2]
+    np.square(n1, out=s[2])
+    s[2] += np.square(n2, out=s[3])
+    s[2] *= k.shear_load
+    overload += s[2]
+    return extension, overload
+
+
+def _q(strains: Rows, c: Constants, s: Rows) -> Rows:
+    """Q as a sum of squares, and the coupled loads of the linear rod over gamma."""
+    k = c.plain
+    u1, u2, u3, v1, v2, v3 = strains
+    stretch = np.subtract(v3, 1, out=s[0])
+    torque = np.multiply(c.iota, stretch, out=s[8])
+    torque += np.multiply(k.turning, u3, out=s[1])
+    slack_pull = np.multiply(k.slack, stretch, out=s[1])
+    q = np.square(u1, out=s[2])
+    q += np.square(u2, out=s[3])
+    q *= k.bending
+    np.square(torque, out=s[3])
+    s[3] *= k.per_turning
+    q += s[3]
+    np.square(v1, out=s[3])
+    s[3] += np.square(v2, out=s[4])
+    s[3] *= k.shearing
+    q += s[3]
+    q += np.multiply(slack_pull, stretch, out=s[0])
+    return torque, slack_pull, q
+
+
+def _spread(matrix: Array, weight: Array, vector: Array) -> None:
+    """weight vector vector^T, on and above the diagonal."""
+    for i, row in enumerate(vector):
+        np.multiply(weight * row, vector[i:], out=matrix[i, i:])
+
+
+def _mirror(matrix: Array) -> None:
+    """What is above the diagonal, below it."""
+    for i in range(1, len(matrix)):
+        matrix[i, :i] = matrix[:i, i]
+
+
+def _strains_plain(loads: Rows, c: Constants, u: Array, v: Array) -> bool:
+    """`_strains` where nothing is extreme; else False."""
+    k = c.plain
+    m1, m2, m3, n1, n2, _ = loads
+    work = _scratch(4, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[0])
-        extension -= np.multiply(k.m3_extends, m3, out=s[1])
-        overload = np.square(m1, out=s[1])
-        overload += np.square(m2, out=s[2])
-        overload *= k.bend_load
-        np.square(extension, out=s[2])
-        s[2] *= k.slack
-        overload += s[2]
-        np.square(m3, out=s[2])
-        s[2] *= k.turn_load
-        overload += s[2]
-        np.square(n1, out=s[2])
-        s[2] += np.square(n2, out=s[3])
-        s[2] *= k.shear_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     root = np.add(overload, 1, out=s[1])
     np.sqrt(root, out=root)
@@ -571,26 +544,19 @@ def _strains_plain(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -
     return True
 
 
-def _strains(loads: Rows, c: Constants, work: Array, u: Array, v: Array) -> None:
+def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
     """(u, v - e3) = (gamma^2 + Q*)^(-1/2) K^-1 (m, n)."""
-    if _strains_plain(loads, c, work, u, v):
+    if _strains_plain(loads, c, u, v):
         return
-    s = [*u, *v, *work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
-    *_, factor = _soften(y, c, s[9:])
-    reach = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.per_alpha, reach, out=s[6])
-    np.multiply(bend, mu_1, out=u[0])
-    np.multiply(bend, mu_2, out=u[1])
-    turn = np.multiply(c.per_beta, reach, out=s[6])
-    np.multiply(turn, twist, out=u[2])
-    shear = np.multiply(c.per_zeta, reach, out=s[6])
-    np.multiply(nu_1, shear, out=v[0])
-    np.multiply(nu_2, shear, out=v[1])
-    extend = np.multiply(c.per_eta, reach, out=s[9])
-    np.multiply(dilatation, extend, out=v[2])
-    v[2] += 1
+    *_, factor = _soften(y, c)
+    reach = factor * unscale
+    bend, turn, shear = c.per_alpha * reach, c.per_beta * reach, c.per_zeta * reach
+    extend = c.per_eta * reach
+    u[0], u[1], u[2] = bend * mu_1, bend * mu_2, turn * twist
+    v[0], v[1] = nu_1 * shear, nu_2 * shear
+    v[2] = dilatation * extend + 1
 
 
 def _strains_at(m: Any, n: Any, c: Constants) -> Any:
@@ -598,7 +564,7 @@ def _strains_at(m: Any, n: Any, c: Constants) -> Any:
     (
         m3_extends, n3_extends, bend_load, shear_load, slack, turn_load, bend_soft, shear_soft,
         turn_soft, untwist, low, high,
-    ) = c.of_strains
+    ) = c.plain.of_strains
     m1, m2, m3 = m
     n1, n2, n3 = n
     extension = n3_extends * n3 - m3_extends * m3
@@ -634,32 +600,18 @@ def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -
     return u, v
 
 
-def _loads_plain(strains: Rows, c: Constants, work: Array, m: Array, n: Array) -> bool:
+def _loads_plain(strains: Rows, c: Constants, m: Array, n: Array) -> bool:
     """`_loads` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, u3, v1, v2, v3 = strains
-    s = [*work[:6]]
+    u1, u2, _, v1, v2, _ = strains
+    work = _scratch(9, strains[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        stretch = np.subtract(v3, 1, out=s[0])
-        torque = np.multiply(c.iota, stretch, out=s[1])
-        torque += np.multiply(k.turning, u3, out=s[2])
-        slack_pull = np.multiply(k.slack, stretch, out=s[2])
-        q = np.square(u1, out=s[3])
-        q += np.square(u2, out=s[4])
-        q *= k.bending
-        np.square(torque, out=s[4])
-        s[4] *= k.per_turning
-        q += s[4]
-        np.square(v1, out=s[4])
-        s[4] += np.square(v2, out=s[5])
-        s[4] *= k.shearing
-        q += s[4]
-        q += np.multiply(slack_pull, stretch, out=s[0])
-    low, high = k.within_q[q.dtype]
-    if not (low < q.min() and q.max() < high):
+        torque, slack_pull, q = _q(strains, c, s)
+    if not _inside(q, k.within_q):
         return False
-    left = np.subtract(1, q, out=s[3])
-    hard = np.sqrt(left, out=s[3])
+    left = np.subtract(1, q, out=s[2])
+    hard = np.sqrt(left, out=s[2])
     np.divide(c.gamma, hard, out=hard)
     bend = np.multiply(k.bending, hard, out=s[0])
     np.multiply(bend, u1, out=m[0])
@@ -674,40 +626,35 @@ def _loads_plain(strains: Rows, c: Constants, work: Array, m: Array, n: Array) -
     return True
 
 
-def _loads(strains: Rows, c: Constants, work: Array, m: Array, n: Array) -> None:
+def _loads(strains: Rows, c: Constants, m: Array, n: Array) -> None:
     """(m, n) = gamma (1 - Q)^(-1/2) K (u, v - e3)."""
-    if _loads_plain(strains, c, work, m, n):
+    if _loads_plain(strains, c, m, n):
         return
-    s = [*m, *n, *work]
-    rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
-    values, _, unscale, q = _rescaled(_reduce_strains, rest, c, s)
+    rest = [*strains[:5], strains[5] - 1]
+    values, _, unscale, q = _rescaled(_reduce_strains, rest, c)
     kappa_1, kappa_2, lam_1, lam_2, torque, tension = values
     q = _within_limit(q)
-    *_, factor = _stiffen(q, c, s[8:])
-    secant = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.alpha, secant, out=s[6])
-    np.multiply(bend, kappa_1, out=m[0])
-    np.multiply(bend, kappa_2, out=m[1])
-    turn = np.multiply(c.beta, secant, out=s[6])
-    np.multiply(torque, turn, out=m[2])
-    shear = np.multiply(c.zeta, secant, out=s[6])
-    np.multiply(lam_1, shear, out=n[0])
-    np.multiply(lam_2, shear, out=n[1])
-    extend = np.multiply(c.eta, secant, out=s[10])
-    np.multiply(extend, tension, out=n[2])
+    *_, factor = _stiffen(q, c)
+    secant = factor * unscale
+    bend, turn, shear = c.alpha * secant, c.beta * secant, c.zeta * secant
+    extend = c.eta * secant
+    m[0], m[1], m[2] = bend * kappa_1, bend * kappa_2, torque * turn
+    n[0], n[1], n[2] = lam_1 * shear, lam_2 * shear, extend * tension
 
 
 def _loads_at(u: Any, v: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
-    iota, turning, slack, bending, per_turning, shearing, gamma, untwist, low, high = c.of_loads
+    (
+        iota, turning, slack, bending, per_turning, shearing, gamma, untwist, low, high,
+    ) = c.plain.of_loads
     u1, u2, u3 = u
     v1, v2, v3 = v
     stretch = v3 - 1
     torque = iota * stretch + turning * u3
     slack_pull = slack * stretch
     q = (
-        bending * (u1 * u1 + u2 * u2) + per_turning * torque * torque + shearing * (v1 * v1
-        + v2 * v2) + slack_pull * stretch
+        bending * (u1 * u1 + u2 * u2) + per_turning * torque * torque
+        + shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
     )
     if type(q) is not float or (
         not low < q < 1 and (q or low > high or any((u1, u2, u3, v1, v2, stretch)))
@@ -739,16 +686,14 @@ def loads(u: Given, v: Given, constants: Constants, out: Pair | None = None) -> 
     return m, n
 
 
-def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
+def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
     """W = gamma (1 - (1 - Q)^(1/2)), as gamma Q/(1 + (1 - Q)^(1/2))."""
-    s = [*work]
-    rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
-    _, _, x, _, q = _balanced(_reduce_strains, rest, c, s)
+    rest = [*strains[:5], strains[5] - 1]
+    _, _, x, _, q = _balanced(_reduce_strains, rest, c)
     q = _within_limit(q)
-    _, root, _ = _stiffen(q, c, s[8:])
-    linear = np.multiply(c.gamma, x, out=s[0])
-    np.multiply(linear, x, out=w)
-    w /= np.add(root, 1, out=s[9])
+    _, root, _ = _stiffen(q, c)
+    linear = c.gamma * x
+    w[...] = linear * x / (root + 1)
 
 
 def _stored_energy_at(u: Any, v: Any, c: Constants) -> Any:
@@ -788,16 +733,12 @@ def stored_energy(u: Given, v: Given, constants: Constants, out: Array | None = 
     return w
 
 
-def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
+def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
     """W* = (gamma^2 + Q*)^(1/2) - gamma, as load times strain over 1 + gamma factor."""
-    s = [*work]
-    _, _, y, _, _ = _balanced(_reduce_loads, loads, c, s)
-    *_, factor = _soften(y, c, s[9:])
-    strain = np.multiply(factor, y, out=s[0])
-    np.multiply(strain, y, out=w_star)
-    np.multiply(c.gamma, factor, out=s[9])
-    s[9] += 1
-    w_star /= s[9]
+    _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
+    *_, factor = _soften(y, c)
+    strain = factor * y
+    w_star[...] = strain * y / (c.gamma * factor + 1)
 
 
 def _complementary_energy_at(m: Any, n: Any, c: Constants) -> Any:
@@ -840,99 +781,71 @@ def complementary_energy(
     return w_star
 
 
-def _stiffness_plain(strains: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
     """`_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, u3, v1, v2, v3 = strains
-    s = [*work[:11]]
-    r = work[:6]
+    u1, u2, _, v1, v2, _ = strains
+    work = _scratch(12, strains[0])
+    s = [*work]
+    r = work[6:12]
     with np.errstate(over="ignore", invalid="ignore"):
-        stretch = np.subtract(v3, 1, out=s[6])
-        np.multiply(c.iota, stretch, out=r[2])
-        r[2] += np.multiply(k.turning, u3, out=s[7])
-        np.multiply(k.bending, u1, out=r[0])
-        np.multiply(k.bending, u2, out=r[1])
-        np.multiply(k.shearing, v1, out=r[3])
-        np.multiply(k.shearing, v2, out=r[4])
-        slack_pull = np.multiply(k.slack, stretch, out=s[7])
-        np.multiply(k.untwist, r[2], out=r[5])
-        r[5] += slack_pull
-        q = np.square(u1, out=s[8])
-        q += np.square(u2, out=s[9])
-        q *= k.bending
-        np.square(r[2], out=s[9])
-        s[9] *= k.per_turning
-        q += s[9]
-        np.square(v1, out=s[9])
-        s[9] += np.square(v2, out=s[10])
-        s[9] *= k.shearing
-        q += s[9]
-        q += np.multiply(slack_pull, stretch, out=s[7])
-    low, high = k.within_q[q.dtype]
-    if not (low < q.min() and q.max() < high):
+        torque, slack_pull, q = _q(strains, c, s)
+    if not _inside(q, k.within_q):
         return False
-    left = np.subtract(1, q, out=s[8])
-    hard = np.sqrt(left, out=s[7])
+    np.multiply(k.bending, u1, out=r[0])
+    np.multiply(k.bending, u2, out=r[1])
+    np.multiply(k.shearing, v1, out=r[3])
+    np.multiply(k.shearing, v2, out=r[4])
+    np.multiply(k.untwist, torque, out=r[5])
+    np.add(slack_pull, r[5], out=r[5])
+    left = np.subtract(1, q, out=s[2])
+    hard = np.sqrt(left, out=s[1])
     np.divide(c.gamma, hard, out=hard)
-    steep = np.divide(hard, left, out=s[8])
-    for i in range(6):
-        np.multiply(steep, r[i], out=s[6])
-        np.multiply(s[6], r[i:], out=stiff[i, i:])
-    np.multiply(k.bending, hard, out=s[8])
-    stiff[0, 0] += s[8]
-    stiff[1, 1] += s[8]
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[8])
-    stiff[2, 5] += np.multiply(c.iota, hard, out=s[8])
-    np.multiply(k.shearing, hard, out=s[8])
-    stiff[3, 3] += s[8]
-    stiff[4, 4] += s[8]
-    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[7])
-    for i in range(1, 6):
-        stiff[i, :i] = stiff[:i, i]
+    steep = np.divide(hard, left, out=s[2])
+    _spread(stiff, steep, r)
+    np.multiply(k.bending, hard, out=s[2])
+    stiff[0, 0] += s[2]
+    stiff[1, 1] += s[2]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[2])
+    stiff[2, 5] += np.multiply(c.iota, hard, out=s[2])
+    np.multiply(k.shearing, hard, out=s[2])
+    stiff[3, 3] += s[2]
+    stiff[4, 4] += s[2]
+    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[1])
+    _mirror(stiff)
     return True
 
 
-def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
+def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u, v - e3)/x."""
-    if _stiffness_plain(strains, c, work, stiff):
+    if _stiffness_plain(strains, c, stiff):
         return
-    s = [*work]
-    rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
+    rest = [*strains[:5], strains[5] - 1]
     with np.errstate(over="ignore", invalid="ignore"):
-        kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c, s)
+        kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
     q = _within_limit(q)
-    left, _, factor = _stiffen(q, c, s[8:])
+    left, _, factor = _stiffen(q, c)
     tiny = TINY[q.dtype]
-    t = work[:6]
-    growth = np.divide(q, left, out=s[8])
-    steep = np.multiply(factor, growth, out=s[8])
-    x = np.maximum(q, tiny, out=s[7])
-    np.sqrt(x, out=x)
-    per_x = np.divide(1, x, out=s[7])
-    bend_per_x = np.multiply(c.alpha, per_x, out=s[6])
-    np.multiply(bend_per_x, kappa_1, out=t[0])
-    np.multiply(bend_per_x, kappa_2, out=t[1])
-    turn_per_x = np.multiply(c.beta, per_x, out=s[6])
-    np.multiply(torque, turn_per_x, out=t[2])
-    shear_per_x = np.multiply(c.zeta, per_x, out=s[6])
-    np.multiply(lam_1, shear_per_x, out=t[3])
-    np.multiply(lam_2, shear_per_x, out=t[4])
-    extend_per_x = np.multiply(c.eta, per_x, out=s[7])
-    np.multiply(extend_per_x, tension, out=t[5])
-    for i in range(6):
-        np.multiply(steep, t[i], out=s[7])
-        np.multiply(s[7], t[i:], out=stiff[i, i:])
-    np.multiply(c.alpha**2, factor, out=s[8])
-    stiff[0, 0] += s[8]
-    stiff[1, 1] += s[8]
-    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[8])
-    stiff[2, 5] += np.multiply(c.iota, factor, out=s[8])
-    np.multiply(c.zeta**2, factor, out=s[8])
-    stiff[3, 3] += s[8]
-    stiff[4, 4] += s[8]
-    stiff[5, 5] += np.multiply(c.eta**2, factor, out=s[10])
-    for i in range(1, 6):
-        stiff[i, :i] = stiff[:i, i]
+    t = np.empty_like(stiff[0])
+    growth = q / left
+    steep = factor * growth
+    x = np.sqrt(np.maximum(q, tiny))
+    per_x = 1 / x
+    bend_per_x, turn_per_x, shear_per_x = c.alpha * per_x, c.beta * per_x, c.zeta * per_x
+    extend_per_x = c.eta * per_x
+    t[0], t[1], t[2] = bend_per_x * kappa_1, bend_per_x * kappa_2, torque * turn_per_x
+    t[3], t[4], t[5] = lam_1 * shear_per_x, lam_2 * shear_per_x, extend_per_x * tension
+    _spread(stiff, steep, t)
+    beside = c.alpha**2 * factor
+    stiff[0, 0] += beside
+    stiff[1, 1] += beside
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 5] += c.iota * factor
+    beside = c.zeta**2 * factor
+    stiff[3, 3] += beside
+    stiff[4, 4] += beside
+    stiff[5, 5] += c.eta**2 * factor
+    _mirror(stiff)
 
 
 def _stiffness_at(u: Any, v: Any, c: Constants) -> Any:
@@ -957,135 +870,97 @@ def stiffness(u: Given, v: Given, constants: Constants, out: Array | None = None
 
 
 def _loads_and_stiffness_plain(
-    strains: Rows, c: Constants, work: Array, m: Array, n: Array, stiff: Array
+    strains: Rows, c: Constants, m: Array, n: Array, stiff: Array
 ) -> bool:
     """`_loads_and_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, u3, v1, v2, v3 = strains
-    s = [*work[:11]]
-    r = work[:6]
+    u1, u2, _, v1, v2, _ = strains
+    work = _scratch(12, strains[0])
+    s = [*work]
+    r = work[6:12]
     with np.errstate(over="ignore", invalid="ignore"):
-        stretch = np.subtract(v3, 1, out=s[6])
-        np.multiply(c.iota, stretch, out=r[2])
-        r[2] += np.multiply(k.turning, u3, out=s[7])
-        slack_pull = np.multiply(k.slack, stretch, out=s[7])
-        q = np.square(u1, out=s[8])
-        q += np.square(u2, out=s[9])
-        q *= k.bending
-        np.square(r[2], out=s[9])
-        s[9] *= k.per_turning
-        q += s[9]
-        np.square(v1, out=s[9])
-        s[9] += np.square(v2, out=s[10])
-        s[9] *= k.shearing
-        q += s[9]
-        q += np.multiply(slack_pull, stretch, out=s[6])
-    low, high = k.within_q[q.dtype]
-    if not (low < q.min() and q.max() < high):
+        torque, slack_pull, q = _q(strains, c, s)
+    if not _inside(q, k.within_q):
         return False
-    left = np.subtract(1, q, out=s[8])
-    hard = np.sqrt(left, out=s[6])
+    left = np.subtract(1, q, out=s[2])
+    hard = np.sqrt(left, out=s[0])
     np.divide(c.gamma, hard, out=hard)
-    bend = np.multiply(k.bending, hard, out=s[9])
+    bend = np.multiply(k.bending, hard, out=s[3])
     np.multiply(bend, u1, out=m[0])
     np.multiply(bend, u2, out=m[1])
-    np.multiply(hard, r[2], out=m[2])
-    shear = np.multiply(k.shearing, hard, out=s[10])
+    np.multiply(hard, torque, out=m[2])
+    shear = np.multiply(k.shearing, hard, out=s[4])
     np.multiply(shear, v1, out=n[0])
     np.multiply(shear, v2, out=n[1])
-    np.multiply(k.untwist, r[2], out=r[5])
-    r[5] += slack_pull
+    np.multiply(k.untwist, torque, out=r[5])
+    np.add(slack_pull, r[5], out=r[5])
     np.multiply(hard, r[5], out=n[2])
     np.multiply(k.bending, u1, out=r[0])
     np.multiply(k.bending, u2, out=r[1])
     np.multiply(k.shearing, v1, out=r[3])
     np.multiply(k.shearing, v2, out=r[4])
-    steep = np.divide(hard, left, out=s[8])
-    for i in range(6):
-        np.multiply(steep, r[i], out=s[7])
-        np.multiply(s[7], r[i:], out=stiff[i, i:])
+    steep = np.divide(hard, left, out=s[2])
+    _spread(stiff, steep, r)
     stiff[0, 0] += bend
     stiff[1, 1] += bend
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[9])
-    stiff[2, 5] += np.multiply(c.iota, hard, out=s[9])
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[3])
+    stiff[2, 5] += np.multiply(c.iota, hard, out=s[3])
     stiff[3, 3] += shear
     stiff[4, 4] += shear
-    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[6])
-    for i in range(1, 6):
-        stiff[i, :i] = stiff[:i, i]
+    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[0])
+    _mirror(stiff)
     return True
 
 
-def _loads_and_stiffness(
-    strains: Rows, c: Constants, work: Array, m: Array, n: Array, stiff: Array
-) -> None:
+def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n: Array, stiff: Array) -> None:
     """(m, n) = factor K (u, v - e3) and D^2 W = factor (K + growth t t^T), as apart."""
-    if _loads_and_stiffness_plain(strains, c, work, m, n, stiff):
+    if _loads_and_stiffness_plain(strains, c, m, n, stiff):
         return
-    s = [*work]
-    rest = [*strains[:5], np.subtract(strains[5], 1, out=s[-2])]
-    values, size, _, unscale, q = _balanced(_reduce_strains, rest, c, s)
+    rest = [*strains[:5], strains[5] - 1]
+    values, size, _, unscale, q = _balanced(_reduce_strains, rest, c)
     kappa_1, kappa_2, lam_1, lam_2, torque, tension = values
     q = _within_limit(q)
-    left, _, factor = _stiffen(q, c, s[8:])
+    left, _, factor = _stiffen(q, c)
     tiny = TINY[q.dtype]
-    t = work[:6]
-    secant = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.alpha, secant, out=s[6])
-    np.multiply(bend, kappa_1, out=m[0])
-    np.multiply(bend, kappa_2, out=m[1])
-    turn = np.multiply(c.beta, secant, out=s[6])
-    np.multiply(torque, turn, out=m[2])
-    shear = np.multiply(c.zeta, secant, out=s[6])
-    np.multiply(lam_1, shear, out=n[0])
-    np.multiply(lam_2, shear, out=n[1])
-    extend = np.multiply(c.eta, secant, out=s[6])
-    np.multiply(extend, tension, out=n[2])
-    growth = np.divide(q, left, out=s[8])
-    steep = np.multiply(factor, growth, out=s[8])
-    per_size = np.maximum(size, np.sqrt(tiny), out=s[7])
-    np.divide(1, per_size, out=per_size)
-    bend_per_size = np.multiply(c.alpha, per_size, out=s[6])
-    np.multiply(bend_per_size, kappa_1, out=t[0])
-    np.multiply(bend_per_size, kappa_2, out=t[1])
-    turn_per_size = np.multiply(c.beta, per_size, out=s[6])
-    np.multiply(torque, turn_per_size, out=t[2])
-    shear_per_size = np.multiply(c.zeta, per_size, out=s[6])
-    np.multiply(lam_1, shear_per_size, out=t[3])
-    np.multiply(lam_2, shear_per_size, out=t[4])
-    extend_per_size = np.multiply(c.eta, per_size, out=s[7])
-    np.multiply(extend_per_size, tension, out=t[5])
-    for i in range(6):
-        np.multiply(steep, t[i], out=s[7])
-        np.multiply(s[7], t[i:], out=stiff[i, i:])
-    np.multiply(c.alpha**2, factor, out=s[8])
-    stiff[0, 0] += s[8]
-    stiff[1, 1] += s[8]
-    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[8])
-    stiff[2, 5] += np.multiply(c.iota, factor, out=s[8])
-    np.multiply(c.zeta**2, factor, out=s[8])
-    stiff[3, 3] += s[8]
-    stiff[4, 4] += s[8]
-    stiff[5, 5] += np.multiply(c.eta**2, factor, out=s[10])
-    for i in range(1, 6):
-        stiff[i, :i] = stiff[:i, i]
+    t = np.empty_like(stiff[0])
+    per_size = 1 / np.maximum(size, np.sqrt(tiny))
+    bend_per_size, turn_per_size = c.alpha * per_size, c.beta * per_size
+    shear_per_size, extend_per_size, secant = c.zeta * per_size, c.eta * per_size, factor * unscale
+    growth = q / left
+    steep, bend, turn = factor * growth, c.alpha * secant, c.beta * secant
+    shear, extend = c.zeta * secant, c.eta * secant
+    t[0], t[1], t[2] = bend_per_size * kappa_1, bend_per_size * kappa_2, torque * turn_per_size
+    t[3], t[4], t[5] = lam_1 * shear_per_size, lam_2 * shear_per_size, extend_per_size * tension
+    m[0], m[1], m[2] = bend * kappa_1, bend * kappa_2, torque * turn
+    n[0], n[1], n[2] = lam_1 * shear, lam_2 * shear, extend * tension
+    _spread(stiff, steep, t)
+    beside = c.alpha**2 * factor
+    stiff[0, 0] += beside
+    stiff[1, 1] += beside
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 5] += c.iota * factor
+    beside = c.zeta**2 * factor
+    stiff[3, 3] += beside
+    stiff[4, 4] += beside
+    stiff[5, 5] += c.eta**2 * factor
+    _mirror(stiff)
 
 
 def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
     """`loads_and_stiffness` of floats, where nothing is extreme."""
     (
         iota, turning, slack, bending, shearing, untwist, per_turning, gamma, stretching, low, high,
-    ) = c.of_loads_and_stiffness
+    ) = c.plain.of_loads_and_stiffness
     u1, u2, u3 = u
     v1, v2, v3 = v
     stretch = v3 - 1
-    r3 = iota * stretch + turning * u3
+    torque = iota * stretch + turning * u3
     slack_pull, r1, r2 = slack * stretch, bending * u1, bending * u2
     r4, r5 = shearing * v1, shearing * v2
-    r6 = untwist * r3 + slack_pull
+    r6 = slack_pull + untwist * torque
     q = (
-        bending * (u1 * u1 + u2 * u2) + per_turning * r3 * r3 + shearing * (v1 * v1 + v2 * v2)
-        + slack_pull * stretch
+        bending * (u1 * u1 + u2 * u2) + per_turning * torque * torque
+        + shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
     )
     if type(q) is not float or (
         not low < q < 1 and (q or low > high or any((u1, u2, u3, v1, v2, stretch)))
@@ -1095,13 +970,13 @@ def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
     hard = gamma / sqrt(left)
     steep = hard / left
     bend, shear, steep_1 = bending * hard, shearing * hard, r1 * steep
-    steep_2, steep_3, steep_4 = r2 * steep, r3 * steep, r4 * steep
+    steep_2, steep_3, steep_4 = r2 * steep, steep * torque, r4 * steep
     steep_5, steep_6 = r5 * steep, r6 * steep
-    k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, r3 * steep_1
+    k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque
     k14, k15, k16 = r4 * steep_1, r5 * steep_1, r6 * steep_1
-    k22, k23, k24 = bend + r2 * steep_2, r3 * steep_2, r4 * steep_2
+    k22, k23, k24 = bend + r2 * steep_2, steep_2 * torque, r4 * steep_2
     k25, k26 = r5 * steep_2, r6 * steep_2
-    k33, k34, k35 = turning * hard + r3 * steep_3, r4 * steep_3, r5 * steep_3
+    k33, k34, k35 = turning * hard + steep_3 * torque, r4 * steep_3, r5 * steep_3
     k36 = iota * hard + r6 * steep_3
     k44, k45, k46 = r4 * steep_4 + shear, r5 * steep_4, r6 * steep_4
     k55, k56 = r5 * steep_5 + shear, r6 * steep_5
@@ -1114,7 +989,7 @@ def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
         (k15, k25, k35, k45, k55, k56),
         (k16, k26, k36, k46, k56, k66),
     )
-    return (bend * u1, bend * u2, hard * r3), (shear * v1, shear * v2, hard * r6), stiff
+    return (bend * u1, bend * u2, hard * torque), (shear * v1, shear * v2, hard * r6), stiff
 
 
 def loads_and_stiffness(
@@ -1139,104 +1014,44 @@ def loads_and_stiffness(
     return m, n, stiff
 
 
-def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
-    s = [*work]
-    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3 = values
-    power, factor = _soften(y, c, s[9:])
+    power, factor = _soften(y, c)
     tiny = TINY[y.dtype]
-    d = work[11:17]
-    share = np.add(power, 1, out=s[8])
-    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
-    steep = np.negative(factor, out=s[17])
-    steep *= share
-    per_size = np.divide(1, size, out=s[8])
-    a1 = np.add(mu_1, tiny, out=s[0])
-    a1 *= per_size
-    np.multiply(c.per_alpha, a1, out=d[0])
-    a2 = np.multiply(mu_2, per_size, out=s[1])
-    np.multiply(c.per_alpha, a2, out=d[1])
-    c3 = np.multiply(per_size, twist, out=s[2])
-    np.multiply(c.per_beta, c3, out=d[2])
-    b1 = np.multiply(nu_1, per_size, out=s[3])
-    np.multiply(c.per_zeta, b1, out=d[3])
-    b2 = np.multiply(nu_2, per_size, out=s[4])
-    np.multiply(c.per_zeta, b2, out=d[4])
-    c6 = np.multiply(dilatation, per_size, out=s[5])
-    np.multiply(c.per_eta, c6, out=d[5])
-    for i in range(6):
-        np.multiply(steep, d[i], out=s[18])
-        np.multiply(s[18], d[i:], out=soft[i, i:])
-    remain = np.add(power, 1, out=s[17])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
-    aa1 = np.square(a1, out=s[0])
-    aa2 = np.square(a2, out=s[1])
-    bb1 = np.square(b1, out=s[3])
-    bb2 = np.square(b2, out=s[4])
-    a3 = np.multiply(mu_3, per_size, out=s[6])
-    aa3 = np.square(a3, out=s[10])
-    cc6 = np.square(c6, out=s[18])
-    coupled = np.multiply(c.gap, cc6, out=s[19])
-    np.add(aa3, coupled, out=coupled)
-    np.multiply(aa1, remain, out=soft[0, 0])
-    soft[0, 0] += aa2
-    soft[0, 0] += bb1
-    soft[0, 0] += bb2
-    soft[0, 0] += coupled
-    soft[0, 0] *= c.per_alpha**2
-    soft[0, 0] *= factor
-    np.multiply(aa2, remain, out=soft[1, 1])
-    np.add(aa1, soft[1, 1], out=soft[1, 1])
-    soft[1, 1] += bb1
-    soft[1, 1] += bb2
-    soft[1, 1] += coupled
-    soft[1, 1] *= c.per_alpha**2
-    soft[1, 1] *= factor
-    b3 = np.multiply(nu_3, per_size, out=s[7])
-    across = np.add(aa1, aa2, out=s[8])
-    across += bb1
-    across += bb2
-    np.square(c3, out=soft[2, 2])
-    soft[2, 2] *= remain
-    np.square(b3, out=s[20])
-    np.add(across, s[20], out=s[20])
-    s[20] *= c.per_gap
-    soft[2, 2] += s[20]
-    soft[2, 2] *= c.per_beta**2
-    soft[2, 2] *= factor
-    np.multiply(c3, c6, out=soft[2, 5])
-    soft[2, 5] *= remain
-    np.multiply(a3, b3, out=s[6])
-    s[6] += np.multiply(c.chirality, across, out=s[7])
-    s[6] *= c.per_gap
-    soft[2, 5] -= s[6]
-    soft[2, 5] *= c.per_beta * c.per_eta
-    soft[2, 5] *= factor
-    np.add(aa1, aa2, out=soft[3, 3])
-    soft[3, 3] += np.multiply(bb1, remain, out=s[6])
-    soft[3, 3] += bb2
-    soft[3, 3] += coupled
-    soft[3, 3] *= c.per_zeta**2
-    soft[3, 3] *= factor
-    np.add(aa1, aa2, out=soft[4, 4])
-    soft[4, 4] += bb1
-    soft[4, 4] += np.multiply(bb2, remain, out=s[4])
-    soft[4, 4] += coupled
-    soft[4, 4] *= c.per_zeta**2
-    soft[4, 4] *= factor
-    np.multiply(cc6, remain, out=soft[5, 5])
-    np.add(aa3, across, out=s[10])
-    s[10] *= c.per_gap
-    soft[5, 5] += s[10]
-    soft[5, 5] *= c.per_eta**2
-    soft[5, 5] *= factor
-    for i in range(1, 6):
-        soft[i, :i] = soft[:i, i]
+    d = np.empty_like(soft[0])
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    per_size = 1 / size
+    a1, share = per_size * (mu_1 + tiny), np.where(y <= c.gamma, power, 1.0) / (power + 1)
+    aa1 = a1**2
+    a2, a3, b1 = mu_2 * per_size, mu_3 * per_size, nu_1 * per_size
+    aa2, aa3, bb1 = a2**2, a3**2, b1**2
+    b2, b3, c3 = nu_2 * per_size, nu_3 * per_size, per_size * twist
+    bb2 = b2**2
+    c6 = dilatation * per_size
+    cc6 = c6**2
+    across = aa1 + aa2 + bb1 + bb2
+    coupled = aa3 + c.gap * cc6
+    steep = -factor * share
+    d[0], d[1], d[2] = c.per_alpha * a1, c.per_alpha * a2, c.per_beta * c3
+    d[3], d[4], d[5] = c.per_zeta * b1, c.per_zeta * b2, c.per_eta * c6
+    _spread(soft, steep, d)
+    soft[0, 0] = c.per_alpha**2 * factor * (aa1 * remain + aa2 + bb1 + bb2 + coupled)
+    soft[1, 1] = c.per_alpha**2 * factor * (aa1 + aa2 * remain + bb1 + bb2 + coupled)
+    soft[2, 2] = c.per_beta**2 * factor * (c3**2 * remain + c.per_gap * (across + b3**2))
+    soft[2, 5] = (
+        c.per_beta * c.per_eta * factor
+        * (c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across))
+    )
+    soft[3, 3] = c.per_zeta**2 * factor * (aa1 + aa2 + bb1 * remain + bb2 + coupled)
+    soft[4, 4] = c.per_zeta**2 * factor * (aa1 + aa2 + bb1 + bb2 * remain + coupled)
+    soft[5, 5] = c.per_eta**2 * factor * (cc6 * remain + c.per_gap * (aa3 + across))
+    _mirror(soft)
 
 
 def _compliance_at(m: Any, n: Any, c: Constants) -> Any:
@@ -1316,31 +1131,15 @@ def compliance(m: Given, n: Given, constants: Constants, out: Array | None = Non
     return soft
 
 
-def _strains_and_gap_plain(
-    loads: Rows, c: Constants, work: Array, u: Array, v: Array, limit_gap: Array
-) -> bool:
+def _strains_and_gap_plain(loads: Rows, c: Constants, u: Array, v: Array, limit_gap: Array) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3, n1, n2, n3 = loads
-    s = [*work[:4]]
+    m1, m2, m3, n1, n2, _ = loads
+    work = _scratch(4, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[0])
-        extension -= np.multiply(k.m3_extends, m3, out=s[1])
-        overload = np.square(m1, out=s[1])
-        overload += np.square(m2, out=s[2])
-        overload *= k.bend_load
-        np.square(extension, out=s[2])
-        s[2] *= k.slack
-        overload += s[2]
-        np.square(m3, out=s[2])
-        s[2] *= k.turn_load
-        overload += s[2]
-        np.square(n1, out=s[2])
-        s[2] += np.square(n2, out=s[3])
-        s[2] *= k.shear_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     root = np.add(overload, 1, out=s[2])
     np.sqrt(root, out=root)
@@ -1361,30 +1160,20 @@ def _strains_and_gap_plain(
     return True
 
 
-def _strains_and_gap(
-    loads: Rows, c: Constants, work: Array, u: Array, v: Array, limit_gap: Array
-) -> None:
+def _strains_and_gap(loads: Rows, c: Constants, u: Array, v: Array, limit_gap: Array) -> None:
     """The strains, and 1 - Q = gamma^2/(gamma^2 + Q*)."""
-    if _strains_and_gap_plain(loads, c, work, u, v, limit_gap):
+    if _strains_and_gap_plain(loads, c, u, v, limit_gap):
         return
-    s = [*work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
-    power, factor = _soften(y, c, s[9:])
-    reach = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.per_alpha, reach, out=s[6])
-    np.multiply(bend, mu_1, out=u[0])
-    np.multiply(bend, mu_2, out=u[1])
-    turn = np.multiply(c.per_beta, reach, out=s[1])
-    np.multiply(turn, twist, out=u[2])
-    shear = np.multiply(c.per_zeta, reach, out=s[2])
-    np.multiply(nu_1, shear, out=v[0])
-    np.multiply(nu_2, shear, out=v[1])
-    extend = np.multiply(c.per_eta, reach, out=s[9])
-    np.multiply(dilatation, extend, out=v[2])
-    v[2] += 1
-    remain = np.add(power, 1, out=s[9])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
+    power, factor = _soften(y, c)
+    reach = factor * unscale
+    bend, turn, shear = c.per_alpha * reach, c.per_beta * reach, c.per_zeta * reach
+    extend = c.per_eta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    u[0], u[1], u[2] = bend * mu_1, bend * mu_2, turn * twist
+    v[0], v[1] = nu_1 * shear, nu_2 * shear
+    v[2] = dilatation * extend + 1
     limit_gap[...] = remain
 
 
@@ -1393,7 +1182,7 @@ def _strains_and_gap_at(m: Any, n: Any, c: Constants) -> Any:
     (
         m3_extends, n3_extends, bend_load, shear_load, slack, turn_load, bend_soft, shear_soft,
         turn_soft, untwist, low, high,
-    ) = c.of_strains_and_gap
+    ) = c.plain.of_strains_and_gap
     m1, m2, m3 = m
     n1, n2, n3 = n
     extension = n3_extends * n3 - m3_extends * m3
@@ -1433,32 +1222,18 @@ def strains_and_gap(m: Given, n: Given, constants: Constants, out: Triple | None
     return u, v, limit_gap
 
 
-def _stiffness_at_loads_plain(loads: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
     """`_stiffness_at_loads` where nothing is extreme; else False."""
     k = c.plain
     m1, m2, m3, n1, n2, n3 = loads
-    s = [*work[:9]]
-    h = work[:6]
+    work = _scratch(10, loads[0])
+    s = [*work]
+    h = work[4:10]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[6])
-        extension -= np.multiply(k.m3_extends, m3, out=s[7])
-        overload = np.square(m1, out=s[7])
-        overload += np.square(m2, out=s[8])
-        overload *= k.bend_load
-        np.square(extension, out=s[6])
-        s[6] *= k.slack
-        overload += s[6]
-        np.square(m3, out=s[6])
-        s[6] *= k.turn_load
-        overload += s[6]
-        np.square(n1, out=s[6])
-        s[6] += np.square(n2, out=s[8])
-        s[6] *= k.shear_load
-        overload += s[6]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        *_, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
-    hard = np.add(overload, 1, out=s[7])
+    hard = np.add(overload, 1, out=s[1])
     np.sqrt(hard, out=hard)
     hard *= c.gamma
     lift = hard
@@ -1468,59 +1243,45 @@ def _stiffness_at_loads_plain(loads: Rows, c: Constants, work: Array, stiff: Arr
     np.multiply(k.per_gamma, n1, out=h[3])
     np.multiply(k.per_gamma, n2, out=h[4])
     np.multiply(k.per_gamma, n3, out=h[5])
-    for i in range(6):
-        np.multiply(lift, h[i], out=s[6])
-        np.multiply(s[6], h[i:], out=stiff[i, i:])
-    np.multiply(k.bending, hard, out=s[6])
-    stiff[0, 0] += s[6]
-    stiff[1, 1] += s[6]
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[6])
-    stiff[2, 5] += np.multiply(c.iota, hard, out=s[6])
-    np.multiply(k.shearing, hard, out=s[6])
-    stiff[3, 3] += s[6]
-    stiff[4, 4] += s[6]
-    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[7])
-    for i in range(1, 6):
-        stiff[i, :i] = stiff[:i, i]
+    _spread(stiff, lift, h)
+    np.multiply(k.bending, hard, out=s[0])
+    stiff[0, 0] += s[0]
+    stiff[1, 1] += s[0]
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
+    stiff[2, 5] += np.multiply(c.iota, hard, out=s[0])
+    np.multiply(k.shearing, hard, out=s[0])
+    stiff[3, 3] += s[0]
+    stiff[4, 4] += s[0]
+    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[1])
+    _mirror(stiff)
     return True
 
 
-def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) -> None:
+def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = y/gamma (m, n)/y, y^2 = Q*."""
-    if _stiffness_at_loads_plain(loads, c, work, stiff):
+    if _stiffness_at_loads_plain(loads, c, stiff):
         return
-    s = [*work]
-    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, nu_1, nu_2, _, _, nu_3 = values
-    rise, factor = _harden(y, c, s[9:])
+    rise, factor = _harden(y, c)
     tiny = TINY[y.dtype]
-    h = work[11:17]
-    rise_per_size = np.maximum(size, np.sqrt(tiny), out=s[2])
-    np.divide(rise, rise_per_size, out=rise_per_size)
-    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[9])
-    np.multiply(bend_rise, mu_1, out=h[0])
-    np.multiply(bend_rise, mu_2, out=h[1])
-    turn_rise = np.multiply(c.beta, rise_per_size, out=s[1])
-    np.multiply(mu_3, turn_rise, out=h[2])
-    shear_rise = np.multiply(c.zeta, rise_per_size, out=s[1])
-    np.multiply(nu_1, shear_rise, out=h[3])
-    np.multiply(nu_2, shear_rise, out=h[4])
-    extend_rise = np.multiply(c.eta, rise_per_size, out=s[2])
-    np.multiply(extend_rise, nu_3, out=h[5])
-    for i in range(6):
-        np.multiply(factor, h[i], out=s[7])
-        np.multiply(s[7], h[i:], out=stiff[i, i:])
-    np.multiply(c.alpha**2, factor, out=s[7])
-    stiff[0, 0] += s[7]
-    stiff[1, 1] += s[7]
-    stiff[2, 2] += np.multiply(c.beta**2, factor, out=s[7])
-    stiff[2, 5] += np.multiply(c.iota, factor, out=s[7])
-    np.multiply(c.zeta**2, factor, out=s[7])
-    stiff[3, 3] += s[7]
-    stiff[4, 4] += s[7]
-    stiff[5, 5] += np.multiply(c.eta**2, factor, out=s[10])
-    for i in range(1, 6):
-        stiff[i, :i] = stiff[:i, i]
+    h = np.empty_like(stiff[0])
+    rise_per_size = rise / np.maximum(size, np.sqrt(tiny))
+    bend_rise, turn_rise = c.alpha * rise_per_size, c.beta * rise_per_size
+    shear_rise, extend_rise = c.zeta * rise_per_size, c.eta * rise_per_size
+    h[0], h[1], h[2] = bend_rise * mu_1, bend_rise * mu_2, mu_3 * turn_rise
+    h[3], h[4], h[5] = nu_1 * shear_rise, nu_2 * shear_rise, extend_rise * nu_3
+    _spread(stiff, factor, h)
+    beside = c.alpha**2 * factor
+    stiff[0, 0] += beside
+    stiff[1, 1] += beside
+    stiff[2, 2] += c.beta**2 * factor
+    stiff[2, 5] += c.iota * factor
+    beside = c.zeta**2 * factor
+    stiff[3, 3] += beside
+    stiff[4, 4] += beside
+    stiff[5, 5] += c.eta**2 * factor
+    _mirror(stiff)
 
 
 def _stiffness_at_loads_at(m: Any, n: Any, c: Constants) -> Any:
@@ -1528,7 +1289,7 @@ def _stiffness_at_loads_at(m: Any, n: Any, c: Constants) -> Any:
     (
         m3_extends, n3_extends, bend_load, shear_load, slack, turn_load, gamma, per_gamma, bending,
         turning, iota, shearing, stretching, low, high,
-    ) = c.of_stiffness_at_loads
+    ) = c.plain.of_stiffness_at_loads
     m1, m2, m3 = m
     n1, n2, n3 = n
     extension = n3_extends * n3 - m3_extends * m3

@@ -51,7 +51,6 @@ Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
 Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
-ROWS = 13  # of scratch
 KEPT = threading.local()  # scratch, from call to call
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
@@ -134,43 +133,14 @@ class Constants:
         return fraction, powers, start, slope, single
 
     @cached_property
-    def of_strains(self) -> tuple[float, ...]:
-        """What `strains` of one point takes."""
-        return (
-            self.plain.n3_extends, self.plain.bend_load, self.plain.shear_load, self.plain.slack,
-            0.5 * self.p, -self.plain.per_p, self.plain.bend_soft, self.plain.shear_soft,
-            *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
-    def of_loads(self) -> tuple[float, ...]:
-        """What `loads` of one point takes."""
-        return (
-            self.plain.slack, self.plain.bending, self.plain.shearing, 0.5 * self.p, self.gamma,
-            -self.plain.per_p, *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
     def of_stored_energy(self) -> tuple[float, ...]:
         """What `stored_energy` of one point takes."""
-        return (
-            self.alpha, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p, self.p,
-        )
+        return (self.alpha, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p, self.p)
 
     @cached_property
     def of_complementary_energy(self) -> tuple[float, ...]:
         """What `complementary_energy` of one point takes."""
-        return (
-            self.per_alpha, self.per_zeta, self.per_eta, self.gamma, self.p, -self.per_p,
-        )
-
-    @cached_property
-    def of_loads_and_stiffness(self) -> tuple[float, ...]:
-        """What `loads_and_stiffness` of one point takes."""
-        return (
-            self.plain.slack, self.plain.bending, self.plain.shearing, 0.5 * self.p, self.gamma,
-            -self.plain.per_p, self.plain.stretching, *self.plain.room[DOUBLE],
-        )
+        return (self.per_alpha, self.per_zeta, self.per_eta, self.gamma, self.p, -self.per_p)
 
     @cached_property
     def of_compliance(self) -> tuple[float, ...]:
@@ -178,24 +148,6 @@ class Constants:
         return (
             self.per_alpha, self.per_zeta, self.per_eta, self.gamma, self.p, -self.per_p,
             self.per_alpha**2, self.per_zeta**2, self.per_eta**2,
-        )
-
-    @cached_property
-    def of_strains_and_gap(self) -> tuple[float, ...]:
-        """What `strains_and_gap` of one point takes."""
-        return (
-            self.plain.n3_extends, self.plain.bend_load, self.plain.shear_load, self.plain.slack,
-            0.5 * self.p, -self.plain.per_p, self.plain.bend_soft, self.plain.shear_soft,
-            *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
-    def of_stiffness_at_loads(self) -> tuple[float, ...]:
-        """What `stiffness_at_loads` of one point takes."""
-        return (
-            self.plain.n3_extends, self.plain.bend_load, self.plain.shear_load, self.plain.slack,
-            0.5 * self.p, self.gamma, self.plain.per_p, self.plain.per_gamma, self.plain.bending,
-            self.plain.shearing, self.plain.stretching, *self.plain.room[DOUBLE],
         )
 
 
@@ -227,6 +179,27 @@ class Plain:
             self.within_overload[kind] = overload if even else (1.0, 0.0)
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
             self.within_q[kind] = q if even else (1.0, 0.0)
+        self.of_strains = (
+            self.n3_extends, self.bend_load, self.shear_load, self.slack, 0.5 * c.p, -self.per_p,
+            self.bend_soft, self.shear_soft, *self.room[DOUBLE],
+        )
+        self.of_loads = (
+            self.slack, self.bending, self.shearing, 0.5 * c.p, c.gamma, -self.per_p,
+            *self.room[DOUBLE],
+        )
+        self.of_loads_and_stiffness = (
+            self.slack, self.bending, self.shearing, 0.5 * c.p, c.gamma, -self.per_p,
+            self.stretching, *self.room[DOUBLE],
+        )
+        self.of_strains_and_gap = (
+            self.n3_extends, self.bend_load, self.shear_load, self.slack, 0.5 * c.p, -self.per_p,
+            self.bend_soft, self.shear_soft, *self.room[DOUBLE],
+        )
+        self.of_stiffness_at_loads = (
+            self.n3_extends, self.bend_load, self.shear_load, self.slack, 0.5 * c.p, c.gamma,
+            self.per_p, self.per_gamma, self.bending, self.shearing, self.stretching,
+            *self.room[DOUBLE],
+        )
 
 
 def _rounded(ratio: Fraction) -> float:
@@ -234,80 +207,49 @@ def _rounded(ratio: Fraction) -> float:
     return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
-def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
     """Loads over their moduli, and Q* in squares."""
     m2, n1, n3 = loads
-    mu_2 = np.multiply(c.per_alpha, m2, out=s[0])
-    nu_1 = np.multiply(c.per_zeta, n1, out=s[1])
-    nu_3 = np.multiply(c.per_eta, n3, out=s[2])
-    q_star = np.square(mu_2, out=s[3])
-    q_star += np.square(nu_1, out=s[4])
-    q_star += np.square(nu_3, out=s[4])
+    mu_2, nu_1, nu_3 = c.per_alpha * m2, c.per_zeta * n1, c.per_eta * n3
+    q_star = mu_2**2 + nu_1**2 + nu_3**2
     return mu_2, nu_1, nu_3, q_star
 
 
-def _soften(y: Array, c: Constants, s: Rows) -> Rows:
+def _soften(y: Array, c: Constants) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
-    larger = np.maximum(y, c.gamma, out=s[0])
-    ratio = np.minimum(y, c.gamma, out=s[1])
-    ratio /= larger
-    np.maximum(ratio, tiny, out=ratio)
-    power = np.log(ratio, out=s[2])
-    power *= c.p
-    np.exp(power, out=power)
-    factor = np.log1p(power, out=s[3])
-    factor *= -c.per_p
-    np.exp(factor, out=factor)
-    factor /= larger
+    larger = np.maximum(y, c.gamma)
+    ratio = np.maximum(np.minimum(y, c.gamma) / larger, tiny)
+    power = np.exp(c.p * np.log(ratio))
+    factor = np.exp(-c.per_p * np.log1p(power)) / larger
     return ratio, power, factor
 
 
-def _reduce_strains(rest: Rows, c: Constants, s: Rows) -> Rows:
+def _reduce_strains(rest: Rows, c: Constants) -> Rows:
     """Strains times their moduli, and Q in squares."""
     u2, v1, stretch = rest
-    kappa_2 = np.multiply(c.alpha, u2, out=s[0])
-    lam_1 = np.multiply(c.zeta, v1, out=s[1])
-    lam_3 = np.multiply(c.eta, stretch, out=s[2])
-    q = np.square(kappa_2, out=s[3])
-    q += np.square(lam_1, out=s[4])
-    q += np.square(lam_3, out=s[4])
+    kappa_2, lam_1, lam_3 = c.alpha * u2, c.zeta * v1, c.eta * stretch
+    q = kappa_2**2 + lam_1**2 + lam_3**2
     return kappa_2, lam_1, lam_3, q
 
 
-def _stiffen(q: Array, c: Constants, s: Rows) -> Rows:
+def _stiffen(q: Array, c: Constants) -> Rows:
     """Load over strain, gamma (1 - x^p)^(-1/p), by the growth x^p/(1 - x^p), x^2 = Q."""
     log_max = LOG_MAX[q.dtype]
     tiny = TINY[q.dtype]
-    growth = np.maximum(q, tiny, out=s[0])
-    np.log(growth, out=growth)
-    growth *= -0.5 * c.p
-    np.minimum(growth, log_max, out=growth)
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    depth = np.log1p(growth, out=s[1])
-    factor = np.multiply(c.per_p, depth, out=s[2])
-    np.exp(factor, out=factor)
-    factor *= c.gamma
+    growth = 1 / np.expm1(np.minimum(-0.5 * c.p * np.log(np.maximum(q, tiny)), log_max))
+    depth = np.log1p(growth)
+    factor = c.gamma * np.exp(c.per_p * depth)
     return growth, depth, factor
 
 
-def _harden(y: Array, c: Constants, s: Rows) -> Rows:
+def _harden(y: Array, c: Constants) -> Rows:
     """Load over strain, (gamma^p + y^p)^(1/p), after its rise (y/gamma)^(p/2)."""
     tiny = TINY[y.dtype]
-    rise = np.multiply(c.per_gamma, y, out=s[0])
-    np.maximum(rise, tiny, out=rise)
-    np.log(rise, out=rise)
-    rise *= 0.5 * c.p
-    np.exp(rise, out=rise)
-    half = np.maximum(rise, tiny, out=s[1])
-    np.divide(1, half, out=half)
-    np.minimum(half, rise, out=half)
-    power = np.square(half, out=s[1])
-    factor = np.log1p(power, out=s[1])
-    factor *= c.per_p
-    np.exp(factor, out=factor)
-    factor *= np.maximum(y, c.gamma, out=s[2])
+    rise = np.exp(0.5 * c.p * np.log(np.maximum(c.per_gamma * y, tiny)))
+    half = np.minimum(rise, 1 / np.maximum(rise, tiny))
+    power = half**2
+    factor = np.exp(c.per_p * np.log1p(power)) * np.maximum(y, c.gamma)
     return rise, factor
 
 
@@ -318,51 +260,39 @@ def _largest(rows: Rows) -> Array:
 
 
 def _rescaled(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Any, Array]:
-    """Values of ``form`` (or ``known`` ones), the last of them, one over the scale, the square.
+    """Values of ``form``, the last of them, one over the scale, the square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, before
-    anything rounds; elsewhere, and at rest, this scale is one. None says that it is one everywhere.
-    The square comes twice, with the scale that the other values have, and without.
+    anything rounds; elsewhere, and at rest, this scale is one. The square comes twice, with the
+    scale that the other values have, and without.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = known or form(inputs, c, s)
+        *values, square = form(inputs, c)
         low = TINY[square.dtype] * 2**60
-        if square.min() > low and square.max() < 1 / low:
-            return values, square, None, square
         odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
         if not odd.any():
             return values, square, 1.0, square
         power = np.frexp(_largest(inputs))[1]
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
         power += np.frexp(_largest(values))[1] - 1
         deep = int(0.4 * math.log2(low))  # small values stay small, so that unscale does not
         power = np.where(odd, np.maximum(power, 0) + np.minimum(power - deep, 0), 0)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
         unscale = np.ldexp(square.dtype.type(1), power)
         return values, square, unscale, square * unscale * unscale
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Array, Any, Array]:
     """As `_rescaled`, with roots: values, norm, radius, one over the scale, square.
 
     The values and the norm share the scale; the radius and its square are free of it.
     """
-    values, scaled, unscale, square = _rescaled(form, inputs, c, s, known)
-    size = np.sqrt(scaled, out=s[-1])
-    if unscale is None:
-        return values, size, size, None, square
+    values, scaled, unscale, square = _rescaled(form, inputs, c)
+    size = np.sqrt(scaled)
     with np.errstate(over="ignore"):
         radius = size * unscale
     return values, np.maximum(size, TINY[size.dtype]), radius, unscale, square
@@ -428,10 +358,9 @@ def _within_limit(q: Array) -> Array:
 
 def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueError:
     """The error for strains at or past the limit: how many points, the first and its Q."""
-    s = [*np.empty((7, strains[0].size), strains[0].dtype)]
-    rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
+    rest = [*strains[:2], strains[2] - 1]
     with np.errstate(over="ignore", invalid="ignore"):
-        *_, q = _reduce_strains(rest, c, s)
+        *_, q = _reduce_strains(rest, c)
     bad = np.flatnonzero(~(q < 1))
     index = tuple(map(int, np.unravel_index(bad[0], shape)))
     first = f"the first at index {index} with Q = {float(q[bad[0]])!r}"
@@ -487,17 +416,6 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     return list(given)
 
 
-def _scratch(size: int, dtype: Any) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = size + 16  # rows that are a power of two apart would share their places in the cache
-    needed = ROWS * length * dtype.itemsize
-    memory = getattr(KEPT, "memory", None)
-    if memory is None or len(memory) < needed:
-        memory = KEPT.memory = np.empty(needed, np.uint8)
-    rows: Array = memory[:needed].view(dtype).reshape(ROWS, length)
-    return rows[:, :size]
-
-
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
@@ -517,14 +435,12 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = _scratch(size, arrays[0].dtype)
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            work = scratch[:, : part.stop - start]
             rows = [row for a in given for row in a[:, part]]
             try:
-                body(rows, c, work, *(array[..., part] for array in flat))
+                body(rows, c, *(array[..., part] for array in flat))
             except _PastLimit:
                 raise _past_limit([row for a in given for row in a], c, shape) from None
     if not direct:
@@ -563,23 +479,75 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
-def _strains_plain(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> bool:
-    """`_strains` where nothing is extreme; else False."""
+def _scratch(count: int, like: Array) -> Array:
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
+    length = like.size + 16  # rows a power of two apart would share their places in the cache
+    needed = count * length * like.itemsize
+    memory = getattr(KEPT, "memory", None)
+    if memory is None or len(memory) < needed:
+        memory = KEPT.memory = np.empty(needed, np.uint8)
+    rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
+    return rows[:, : like.size]
+
+
+def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
+    """Whether all of it lies between the bounds for its type; nan does not."""
+    low, high = within[square.dtype]
+    return bool(low < square[square.argmin()] and square[square.argmax()] < high)
+
+
+def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
+    """Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."""
     k = c.plain
     m2, n1, n3 = loads
-    s = [*work[:3]]
+    extension = np.multiply(k.n3_extends, n3, out=s[0])
+    overload = np.square(m2, out=s[1])
+    overload *= k.bend_load
+    np.square(extension, out=s[2])
+    s[2] *= k.slack
+    overload += s[2]
+    np.square(n1, out=s[2])
+    s[2] *= k.shear_load
+    overload += s[2]
+    return extension, overload
+
+
+def _q(strains: Rows, c: Constants, s: Rows) -> Rows:
+    """Q as a sum of squares, and the coupled loads of the linear rod over gamma."""
+    k = c.plain
+    u2, v1, v3 = strains
+    stretch = np.subtract(v3, 1, out=s[0])
+    slack_pull = np.multiply(k.slack, stretch, out=s[1])
+    q = np.square(u2, out=s[2])
+    q *= k.bending
+    np.square(v1, out=s[3])
+    s[3] *= k.shearing
+    q += s[3]
+    q += np.multiply(slack_pull, stretch, out=s[0])
+    return slack_pull, q
+
+
+def _spread(matrix: Array, weight: Array, vector: Array) -> None:
+    """weight vector vector^T, on and above the diagonal."""
+    for i, row in enumerate(vector):
+        np.multiply(weight * row, vector[i:], out=matrix[i, i:])
+
+
+def _mirror(matrix: Array) -> None:
+    """What is above the diagonal, below it."""
+    for i in range(1, len(matrix)):
+        matrix[i, :i] = matrix[:i, i]
+
+
+def _strains_plain(loads: Rows, c: Constants, u2: Array, v: Array) -> bool:
+    """`_strains` where nothing is extreme; else False."""
+    k = c.plain
+    m2, n1, _ = loads
+    work = _scratch(3, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[0])
-        overload = np.square(m2, out=s[1])
-        overload *= k.bend_load
-        np.square(extension, out=s[2])
-        s[2] *= k.slack
-        overload += s[2]
-        np.square(n1, out=s[2])
-        s[2] *= k.shear_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[1])
     excess *= 0.5 * c.p
@@ -596,22 +564,18 @@ def _strains_plain(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) 
     return True
 
 
-def _strains(loads: Rows, c: Constants, work: Array, u2: Array, v: Array) -> None:
+def _strains(loads: Rows, c: Constants, u2: Array, v: Array) -> None:
     """(u2, v1, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m2, n1, n3)."""
-    if _strains_plain(loads, c, work, u2, v):
+    if _strains_plain(loads, c, u2, v):
         return
-    s = [u2, *v, *work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_2, nu_1, nu_3 = values
-    *_, factor = _soften(y, c, s[4:])
-    reach = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.per_alpha, reach, out=s[3])
-    np.multiply(bend, mu_2, out=u2)
-    shear = np.multiply(c.per_zeta, reach, out=s[3])
-    np.multiply(nu_1, shear, out=v[0])
-    extend = np.multiply(c.per_eta, reach, out=s[7])
-    np.multiply(extend, nu_3, out=v[1])
-    v[1] += 1
+    *_, factor = _soften(y, c)
+    reach = factor * unscale
+    bend, shear, extend = c.per_alpha * reach, c.per_zeta * reach, c.per_eta * reach
+    u2[...] = bend * mu_2
+    v[0] = nu_1 * shear
+    v[1] = extend * nu_3 + 1
 
 
 def _strains_at(m2: Any, n: Any, c: Constants) -> Any:
@@ -619,7 +583,7 @@ def _strains_at(m2: Any, n: Any, c: Constants) -> Any:
     (
         n3_extends, bend_load, shear_load, slack, half_p, minus_per_p, bend_soft, shear_soft, low,
         high,
-    ) = c.of_strains
+    ) = c.plain.of_strains
     n1, n3 = n
     extension = n3_extends * n3
     overload = bend_load * m2 * m2 + slack * extension * extension + shear_load * n1 * n1
@@ -649,22 +613,15 @@ def strains(m2: Given | float, n: Given, constants: Constants, out: Pair | None 
     return u2, v
 
 
-def _loads_plain(strains: Rows, c: Constants, work: Array, m2: Array, n: Array) -> bool:
+def _loads_plain(strains: Rows, c: Constants, m2: Array, n: Array) -> bool:
     """`_loads` where nothing is extreme; else False."""
     k = c.plain
-    u2, v1, v3 = strains
-    s = [*work[:4]]
+    u2, v1, _ = strains
+    work = _scratch(4, strains[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        stretch = np.subtract(v3, 1, out=s[0])
-        slack_pull = np.multiply(k.slack, stretch, out=s[1])
-        q = np.square(u2, out=s[2])
-        q *= k.bending
-        np.square(v1, out=s[3])
-        s[3] *= k.shearing
-        q += s[3]
-        q += np.multiply(slack_pull, stretch, out=s[0])
-    low, high = k.within_q[q.dtype]
-    if not (low < q.min() and q.max() < high):
+        slack_pull, q = _q(strains, c, s)
+    if not _inside(q, k.within_q):
         return False
     growth = np.log(q, out=s[2])
     growth *= -0.5 * c.p
@@ -682,28 +639,24 @@ def _loads_plain(strains: Rows, c: Constants, work: Array, m2: Array, n: Array) 
     return True
 
 
-def _loads(strains: Rows, c: Constants, work: Array, m2: Array, n: Array) -> None:
+def _loads(strains: Rows, c: Constants, m2: Array, n: Array) -> None:
     """(m2, n1, n3) = gamma (1 - Q^(p/2))^(-1/p) K (u2, v1, v3 - 1)."""
-    if _loads_plain(strains, c, work, m2, n):
+    if _loads_plain(strains, c, m2, n):
         return
-    s = [m2, *n, *work]
-    rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
-    values, _, unscale, q = _rescaled(_reduce_strains, rest, c, s)
+    rest = [*strains[:2], strains[2] - 1]
+    values, _, unscale, q = _rescaled(_reduce_strains, rest, c)
     kappa_2, lam_1, lam_3 = values
     q = _within_limit(q)
-    *_, factor = _stiffen(q, c, s[4:])
-    secant = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.alpha, secant, out=s[3])
-    np.multiply(bend, kappa_2, out=m2)
-    shear = np.multiply(c.zeta, secant, out=s[3])
-    np.multiply(lam_1, shear, out=n[0])
-    extend = np.multiply(c.eta, secant, out=s[6])
-    np.multiply(extend, lam_3, out=n[1])
+    *_, factor = _stiffen(q, c)
+    secant = factor * unscale
+    bend, shear, extend = c.alpha * secant, c.zeta * secant, c.eta * secant
+    m2[...] = bend * kappa_2
+    n[0], n[1] = lam_1 * shear, extend * lam_3
 
 
 def _loads_at(u2: Any, v: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
-    slack, bending, shearing, half_p, gamma, minus_per_p, low, high = c.of_loads
+    slack, bending, shearing, half_p, gamma, minus_per_p, low, high = c.plain.of_loads
     v1, v3 = v
     stretch = v3 - 1
     slack_pull = slack * stretch
@@ -734,16 +687,14 @@ def loads(u2: Given | float, v: Given, constants: Constants, out: Pair | None = 
     return m2, n
 
 
-def _stored_energy(strains: Rows, c: Constants, work: Array, w: Array) -> None:
+def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
-    s = [*work]
-    rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
-    _, _, x, _, q = _balanced(_reduce_strains, rest, c, s)
+    rest = [*strains[:2], strains[2] - 1]
+    _, _, x, _, q = _balanced(_reduce_strains, rest, c)
     q = _within_limit(q)
-    _, depth, factor = _stiffen(q, c, s[4:])
-    load = np.multiply(factor, x, out=s[6])
-    np.multiply(load, x, out=w)
-    w *= _work_share(depth, c)
+    _, depth, factor = _stiffen(q, c)
+    load = factor * x
+    w[...] = load * x * _work_share(depth, c)
 
 
 def _stored_energy_at(u2: Any, v: Any, c: Constants) -> Any:
@@ -781,17 +732,13 @@ def stored_energy(
     return w
 
 
-def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
+def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
-    s = [*work]
-    _, _, y, _, _ = _balanced(_reduce_loads, loads, c, s)
-    ratio, power, factor = _soften(y, c, s[4:])
-    strain = np.multiply(factor, y, out=s[7])
-    depth = np.log1p(power, out=s[6])
-    depth -= np.multiply(c.p, np.where(y <= c.gamma, 0.0, np.log(ratio)), out=s[5])
-    np.subtract(1, _work_share(depth, c), out=w_star)
-    w_star *= strain
-    w_star *= y
+    _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
+    ratio, power, factor = _soften(y, c)
+    strain = factor * y
+    depth = np.log1p(power) - c.p * np.where(y <= c.gamma, 0.0, np.log(ratio))
+    w_star[...] = strain * y * (1 - _work_share(depth, c))
 
 
 def _complementary_energy_at(m2: Any, n: Any, c: Constants) -> Any:
@@ -830,78 +777,59 @@ def complementary_energy(
     return w_star
 
 
-def _stiffness_plain(strains: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
     """`_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u2, v1, v3 = strains
-    s = [*work[:7]]
-    r = work[:3]
+    u2, v1, _ = strains
+    work = _scratch(7, strains[0])
+    s = [*work]
+    r = work[4:7]
     with np.errstate(over="ignore", invalid="ignore"):
-        np.multiply(k.bending, u2, out=r[0])
-        np.multiply(k.shearing, v1, out=r[1])
-        stretch = np.subtract(v3, 1, out=s[3])
-        slack_pull = np.multiply(k.slack, stretch, out=s[4])
-        r[2][...] = slack_pull
-        q = np.square(u2, out=s[5])
-        q *= k.bending
-        np.square(v1, out=s[6])
-        s[6] *= k.shearing
-        q += s[6]
-        q += np.multiply(slack_pull, stretch, out=s[4])
-    low, high = k.within_q[q.dtype]
-    if not (low < q.min() and q.max() < high):
+        slack_pull, q = _q(strains, c, s)
+    if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[4])
+    np.multiply(k.bending, u2, out=r[0])
+    np.multiply(k.shearing, v1, out=r[1])
+    r[2][...] = slack_pull
+    growth = np.log(q, out=s[1])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[3])
+    hard = np.log1p(growth, out=s[0])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    steep = np.multiply(growth, hard, out=s[4])
+    steep = np.multiply(growth, hard, out=s[1])
     steep /= q
-    for i in range(3):
-        np.multiply(steep, r[i], out=s[5])
-        np.multiply(s[5], r[i:], out=stiff[i, i:])
-    stiff[0, 0] += np.multiply(k.bending, hard, out=s[4])
-    stiff[1, 1] += np.multiply(k.shearing, hard, out=s[4])
-    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[3])
-    for i in range(1, 3):
-        stiff[i, :i] = stiff[:i, i]
+    _spread(stiff, steep, r)
+    stiff[0, 0] += np.multiply(k.bending, hard, out=s[1])
+    stiff[1, 1] += np.multiply(k.shearing, hard, out=s[1])
+    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[0])
+    _mirror(stiff)
     return True
 
 
-def _stiffness(strains: Rows, c: Constants, work: Array, stiff: Array) -> None:
+def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u2, v1, v3 - 1)/x."""
-    if _stiffness_plain(strains, c, work, stiff):
+    if _stiffness_plain(strains, c, stiff):
         return
-    s = [*work]
-    rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
+    rest = [*strains[:2], strains[2] - 1]
     with np.errstate(over="ignore", invalid="ignore"):
-        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c, s)
+        kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c)
     q = _within_limit(q)
-    growth, _, factor = _stiffen(q, c, s[4:])
+    growth, _, factor = _stiffen(q, c)
     tiny = TINY[q.dtype]
-    t = work[:3]
-    steep = np.multiply(factor, growth, out=s[4])
-    x = np.maximum(q, tiny, out=s[3])
-    np.sqrt(x, out=x)
-    per_x = np.divide(1, x, out=s[3])
-    bend_per_x = np.multiply(c.alpha, per_x, out=s[5])
-    np.multiply(bend_per_x, kappa_2, out=t[0])
-    shear_per_x = np.multiply(c.zeta, per_x, out=s[5])
-    np.multiply(lam_1, shear_per_x, out=t[1])
-    extend_per_x = np.multiply(c.eta, per_x, out=s[3])
-    np.multiply(extend_per_x, lam_3, out=t[2])
-    for i in range(3):
-        np.multiply(steep, t[i], out=s[3])
-        np.multiply(s[3], t[i:], out=stiff[i, i:])
-    stiff[0, 0] += np.multiply(c.alpha**2, factor, out=s[4])
-    stiff[1, 1] += np.multiply(c.zeta**2, factor, out=s[4])
-    stiff[2, 2] += np.multiply(c.eta**2, factor, out=s[6])
-    for i in range(1, 3):
-        stiff[i, :i] = stiff[:i, i]
+    t = np.empty_like(stiff[0])
+    steep = factor * growth
+    x = np.sqrt(np.maximum(q, tiny))
+    per_x = 1 / x
+    bend_per_x, shear_per_x, extend_per_x = c.alpha * per_x, c.zeta * per_x, c.eta * per_x
+    t[0], t[1], t[2] = bend_per_x * kappa_2, lam_1 * shear_per_x, extend_per_x * lam_3
+    _spread(stiff, steep, t)
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.zeta**2 * factor
+    stiff[2, 2] += c.eta**2 * factor
+    _mirror(stiff)
 
 
 def _stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
@@ -926,30 +854,23 @@ def stiffness(u2: Given | float, v: Given, constants: Constants, out: Array | No
 
 
 def _loads_and_stiffness_plain(
-    strains: Rows, c: Constants, work: Array, m2: Array, n: Array, stiff: Array
+    strains: Rows, c: Constants, m2: Array, n: Array, stiff: Array
 ) -> bool:
     """`_loads_and_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u2, v1, v3 = strains
-    s = [*work[:9]]
-    r = work[:3]
+    u2, v1, _ = strains
+    work = _scratch(9, strains[0])
+    s = [*work]
+    r = work[4:7]
     with np.errstate(over="ignore", invalid="ignore"):
-        stretch = np.subtract(v3, 1, out=s[3])
-        slack_pull = np.multiply(k.slack, stretch, out=s[4])
-        q = np.square(u2, out=s[5])
-        q *= k.bending
-        np.square(v1, out=s[6])
-        s[6] *= k.shearing
-        q += s[6]
-        q += np.multiply(slack_pull, stretch, out=s[3])
-    low, high = k.within_q[q.dtype]
-    if not (low < q.min() and q.max() < high):
+        slack_pull, q = _q(strains, c, s)
+    if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[3])
+    growth = np.log(q, out=s[0])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[6])
+    hard = np.log1p(growth, out=s[3])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
@@ -961,64 +882,47 @@ def _loads_and_stiffness_plain(
     np.multiply(hard, r[2], out=n[1])
     np.multiply(k.bending, u2, out=r[0])
     np.multiply(k.shearing, v1, out=r[1])
-    steep = np.multiply(growth, hard, out=s[3])
+    steep = np.multiply(growth, hard, out=s[0])
     steep /= q
-    for i in range(3):
-        np.multiply(steep, r[i], out=s[5])
-        np.multiply(s[5], r[i:], out=stiff[i, i:])
+    _spread(stiff, steep, r)
     stiff[0, 0] += bend
     stiff[1, 1] += shear
-    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[6])
-    for i in range(1, 3):
-        stiff[i, :i] = stiff[:i, i]
+    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[3])
+    _mirror(stiff)
     return True
 
 
-def _loads_and_stiffness(
-    strains: Rows, c: Constants, work: Array, m2: Array, n: Array, stiff: Array
-) -> None:
+def _loads_and_stiffness(strains: Rows, c: Constants, m2: Array, n: Array, stiff: Array) -> None:
     """(m2, n1, n3) = factor K (u2, v1, v3 - 1) and D^2 W = factor (K + growth t t^T), as apart."""
-    if _loads_and_stiffness_plain(strains, c, work, m2, n, stiff):
+    if _loads_and_stiffness_plain(strains, c, m2, n, stiff):
         return
-    s = [*work]
-    rest = [*strains[:2], np.subtract(strains[2], 1, out=s[-2])]
-    values, size, _, unscale, q = _balanced(_reduce_strains, rest, c, s)
+    rest = [*strains[:2], strains[2] - 1]
+    values, size, _, unscale, q = _balanced(_reduce_strains, rest, c)
     kappa_2, lam_1, lam_3 = values
     q = _within_limit(q)
-    growth, _, factor = _stiffen(q, c, s[4:])
+    growth, _, factor = _stiffen(q, c)
     tiny = TINY[q.dtype]
-    t = work[:3]
-    secant = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.alpha, secant, out=s[3])
-    np.multiply(bend, kappa_2, out=m2)
-    shear = np.multiply(c.zeta, secant, out=s[3])
-    np.multiply(lam_1, shear, out=n[0])
-    extend = np.multiply(c.eta, secant, out=s[3])
-    np.multiply(extend, lam_3, out=n[1])
-    steep = np.multiply(factor, growth, out=s[4])
-    per_size = np.maximum(size, np.sqrt(tiny), out=s[3])
-    np.divide(1, per_size, out=per_size)
-    bend_per_size = np.multiply(c.alpha, per_size, out=s[5])
-    np.multiply(bend_per_size, kappa_2, out=t[0])
-    shear_per_size = np.multiply(c.zeta, per_size, out=s[5])
-    np.multiply(lam_1, shear_per_size, out=t[1])
-    extend_per_size = np.multiply(c.eta, per_size, out=s[3])
-    np.multiply(extend_per_size, lam_3, out=t[2])
-    for i in range(3):
-        np.multiply(steep, t[i], out=s[3])
-        np.multiply(s[3], t[i:], out=stiff[i, i:])
-    stiff[0, 0] += np.multiply(c.alpha**2, factor, out=s[4])
-    stiff[1, 1] += np.multiply(c.zeta**2, factor, out=s[4])
-    stiff[2, 2] += np.multiply(c.eta**2, factor, out=s[6])
-    for i in range(1, 3):
-        stiff[i, :i] = stiff[:i, i]
+    t = np.empty_like(stiff[0])
+    steep, secant = factor * growth, factor * unscale
+    per_size = 1 / np.maximum(size, np.sqrt(tiny))
+    bend_per_size, shear_per_size = c.alpha * per_size, c.zeta * per_size
+    extend_per_size, bend, shear = c.eta * per_size, c.alpha * secant, c.zeta * secant
+    extend = c.eta * secant
+    t[0], t[1], t[2] = bend_per_size * kappa_2, lam_1 * shear_per_size, extend_per_size * lam_3
+    m2[...] = bend * kappa_2
+    n[0], n[1] = lam_1 * shear, extend * lam_3
+    _spread(stiff, steep, t)
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.zeta**2 * factor
+    stiff[2, 2] += c.eta**2 * factor
+    _mirror(stiff)
 
 
 def _loads_and_stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
     """`loads_and_stiffness` of floats, where nothing is extreme."""
     (
         slack, bending, shearing, half_p, gamma, minus_per_p, stretching, low, high,
-    ) = c.of_loads_and_stiffness
+    ) = c.plain.of_loads_and_stiffness
     v1, v3 = v
     stretch = v3 - 1
     slack_pull, r2, r4 = slack * stretch, bending * u2, shearing * v1
@@ -1066,55 +970,31 @@ def loads_and_stiffness(
     return m2, n, stiff
 
 
-def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m2, n1, n3)/y.
 
     With (a, b) the reduced load as a unit vector,
     the entries that would cancel are sums of squares.
     """
-    s = [*work]
-    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_2, nu_1, nu_3 = values
-    _, power, factor = _soften(y, c, s[4:])
+    _, power, factor = _soften(y, c)
     tiny = TINY[y.dtype]
-    d = work[8:11]
-    share = np.add(power, 1, out=s[3])
-    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
-    steep = np.negative(factor, out=s[4])
-    steep *= share
-    per_size = np.divide(1, size, out=s[3])
-    a2 = np.add(mu_2, tiny, out=s[0])
-    a2 *= per_size
-    np.multiply(c.per_alpha, a2, out=d[0])
-    b1 = np.multiply(nu_1, per_size, out=s[1])
-    np.multiply(c.per_zeta, b1, out=d[1])
-    b3 = np.multiply(nu_3, per_size, out=s[2])
-    np.multiply(c.per_eta, b3, out=d[2])
-    for i in range(3):
-        np.multiply(steep, d[i], out=s[3])
-        np.multiply(s[3], d[i:], out=soft[i, i:])
-    remain = np.add(power, 1, out=s[4])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
-    aa2 = np.square(a2, out=s[0])
-    bb1 = np.square(b1, out=s[1])
-    bb3 = np.square(b3, out=s[2])
-    np.multiply(aa2, remain, out=soft[0, 0])
-    soft[0, 0] += bb1
-    soft[0, 0] += bb3
-    soft[0, 0] *= c.per_alpha**2
-    soft[0, 0] *= factor
-    np.multiply(bb1, remain, out=soft[1, 1])
-    np.add(aa2, soft[1, 1], out=soft[1, 1])
-    soft[1, 1] += bb3
-    soft[1, 1] *= c.per_zeta**2
-    soft[1, 1] *= factor
-    across = np.add(aa2, bb1, out=s[0])
-    np.multiply(bb3, remain, out=soft[2, 2])
-    np.add(across, soft[2, 2], out=soft[2, 2])
-    soft[2, 2] *= c.per_eta**2
-    soft[2, 2] *= factor
-    for i in range(1, 3):
-        soft[i, :i] = soft[:i, i]
+    d = np.empty_like(soft[0])
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    per_size = 1 / size
+    a2, share = per_size * (mu_2 + tiny), np.where(y <= c.gamma, power, 1.0) / (power + 1)
+    aa2 = a2**2
+    b1, b3 = nu_1 * per_size, nu_3 * per_size
+    bb1, bb3 = b1**2, b3**2
+    across = aa2 + bb1
+    steep = -factor * share
+    d[0], d[1], d[2] = c.per_alpha * a2, c.per_zeta * b1, c.per_eta * b3
+    _spread(soft, steep, d)
+    soft[0, 0] = c.per_alpha**2 * factor * (aa2 * remain + bb1 + bb3)
+    soft[1, 1] = c.per_zeta**2 * factor * (aa2 + bb1 * remain + bb3)
+    soft[2, 2] = c.per_eta**2 * factor * (across + bb3 * remain)
+    _mirror(soft)
 
 
 def _compliance_at(m2: Any, n: Any, c: Constants) -> Any:
@@ -1174,24 +1054,16 @@ def compliance(
 
 
 def _strains_and_gap_plain(
-    loads: Rows, c: Constants, work: Array, u2: Array, v: Array, limit_gap: Array
+    loads: Rows, c: Constants, u2: Array, v: Array, limit_gap: Array
 ) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
-    m2, n1, n3 = loads
-    s = [*work[:4]]
+    m2, n1, _ = loads
+    work = _scratch(4, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[0])
-        overload = np.square(m2, out=s[1])
-        overload *= k.bend_load
-        np.square(extension, out=s[2])
-        s[2] *= k.slack
-        overload += s[2]
-        np.square(n1, out=s[2])
-        s[2] *= k.shear_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[1])
     excess *= 0.5 * c.p
@@ -1210,26 +1082,19 @@ def _strains_and_gap_plain(
     return True
 
 
-def _strains_and_gap(
-    loads: Rows, c: Constants, work: Array, u2: Array, v: Array, limit_gap: Array
-) -> None:
+def _strains_and_gap(loads: Rows, c: Constants, u2: Array, v: Array, limit_gap: Array) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    if _strains_and_gap_plain(loads, c, work, u2, v, limit_gap):
+    if _strains_and_gap_plain(loads, c, u2, v, limit_gap):
         return
-    s = [*work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_2, nu_1, nu_3 = values
-    _, power, factor = _soften(y, c, s[4:])
-    reach = factor if unscale is None else factor * unscale
-    bend = np.multiply(c.per_alpha, reach, out=s[3])
-    np.multiply(bend, mu_2, out=u2)
-    shear = np.multiply(c.per_zeta, reach, out=s[0])
-    np.multiply(nu_1, shear, out=v[0])
-    extend = np.multiply(c.per_eta, reach, out=s[7])
-    np.multiply(extend, nu_3, out=v[1])
-    v[1] += 1
-    remain = np.add(power, 1, out=s[2])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
+    _, power, factor = _soften(y, c)
+    reach = factor * unscale
+    bend, shear, extend = c.per_alpha * reach, c.per_zeta * reach, c.per_eta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    u2[...] = bend * mu_2
+    v[0] = nu_1 * shear
+    v[1] = extend * nu_3 + 1
     limit_gap[...] = remain
 
 
@@ -1238,7 +1103,7 @@ def _strains_and_gap_at(m2: Any, n: Any, c: Constants) -> Any:
     (
         n3_extends, bend_load, shear_load, slack, half_p, minus_per_p, bend_soft, shear_soft, low,
         high,
-    ) = c.of_strains_and_gap
+    ) = c.plain.of_strains_and_gap
     n1, n3 = n
     extension = n3_extends * n3
     overload = bend_load * m2 * m2 + slack * extension * extension + shear_load * n1 * n1
@@ -1273,74 +1138,55 @@ def strains_and_gap(
     return u2, v, limit_gap
 
 
-def _stiffness_at_loads_plain(loads: Rows, c: Constants, work: Array, stiff: Array) -> bool:
+def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
     """`_stiffness_at_loads` where nothing is extreme; else False."""
     k = c.plain
     m2, n1, n3 = loads
-    s = [*work[:6]]
-    h = work[:3]
+    work = _scratch(6, loads[0])
+    s = [*work]
+    h = work[3:6]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[3])
-        overload = np.square(m2, out=s[4])
-        overload *= k.bend_load
-        np.square(extension, out=s[3])
-        s[3] *= k.slack
-        overload += s[3]
-        np.square(n1, out=s[3])
-        s[3] *= k.shear_load
-        overload += s[3]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        *_, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[3])
+    excess = np.log(overload, out=s[0])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    hard = np.log1p(excess, out=s[5])
+    hard = np.log1p(excess, out=s[2])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    lift = np.multiply(excess, hard, out=s[3])
+    lift = np.multiply(excess, hard, out=s[0])
     lift /= overload
     np.multiply(k.per_gamma, m2, out=h[0])
     np.multiply(k.per_gamma, n1, out=h[1])
     np.multiply(k.per_gamma, n3, out=h[2])
-    for i in range(3):
-        np.multiply(lift, h[i], out=s[4])
-        np.multiply(s[4], h[i:], out=stiff[i, i:])
-    stiff[0, 0] += np.multiply(k.bending, hard, out=s[3])
-    stiff[1, 1] += np.multiply(k.shearing, hard, out=s[3])
-    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[5])
-    for i in range(1, 3):
-        stiff[i, :i] = stiff[:i, i]
+    _spread(stiff, lift, h)
+    stiff[0, 0] += np.multiply(k.bending, hard, out=s[0])
+    stiff[1, 1] += np.multiply(k.shearing, hard, out=s[0])
+    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[2])
+    _mirror(stiff)
     return True
 
 
-def _stiffness_at_loads(loads: Rows, c: Constants, work: Array, stiff: Array) -> None:
+def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m2, n1, n3)/y, y^2 = Q*."""
-    if _stiffness_at_loads_plain(loads, c, work, stiff):
+    if _stiffness_at_loads_plain(loads, c, stiff):
         return
-    s = [*work]
-    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_2, nu_1, nu_3 = values
-    rise, factor = _harden(y, c, s[4:])
+    rise, factor = _harden(y, c)
     tiny = TINY[y.dtype]
-    h = work[:3]
-    rise_per_size = np.maximum(size, np.sqrt(tiny), out=s[3])
-    np.divide(rise, rise_per_size, out=rise_per_size)
-    bend_rise = np.multiply(c.alpha, rise_per_size, out=s[4])
-    np.multiply(bend_rise, mu_2, out=h[0])
-    shear_rise = np.multiply(c.zeta, rise_per_size, out=s[4])
-    np.multiply(nu_1, shear_rise, out=h[1])
-    extend_rise = np.multiply(c.eta, rise_per_size, out=s[3])
-    np.multiply(extend_rise, nu_3, out=h[2])
-    for i in range(3):
-        np.multiply(factor, h[i], out=s[3])
-        np.multiply(s[3], h[i:], out=stiff[i, i:])
-    stiff[0, 0] += np.multiply(c.alpha**2, factor, out=s[3])
-    stiff[1, 1] += np.multiply(c.zeta**2, factor, out=s[3])
-    stiff[2, 2] += np.multiply(c.eta**2, factor, out=s[5])
-    for i in range(1, 3):
-        stiff[i, :i] = stiff[:i, i]
+    h = np.empty_like(stiff[0])
+    rise_per_size = rise / np.maximum(size, np.sqrt(tiny))
+    bend_rise, shear_rise = c.alpha * rise_per_size, c.zeta * rise_per_size
+    extend_rise = c.eta * rise_per_size
+    h[0], h[1], h[2] = bend_rise * mu_2, nu_1 * shear_rise, extend_rise * nu_3
+    _spread(stiff, factor, h)
+    stiff[0, 0] += c.alpha**2 * factor
+    stiff[1, 1] += c.zeta**2 * factor
+    stiff[2, 2] += c.eta**2 * factor
+    _mirror(stiff)
 
 
 def _stiffness_at_loads_at(m2: Any, n: Any, c: Constants) -> Any:
@@ -1348,7 +1194,7 @@ def _stiffness_at_loads_at(m2: Any, n: Any, c: Constants) -> Any:
     (
         n3_extends, bend_load, shear_load, slack, half_p, gamma, per_p, per_gamma, bending,
         shearing, stretching, low, high,
-    ) = c.of_stiffness_at_loads
+    ) = c.plain.of_stiffness_at_loads
     n1, n3 = n
     extension = n3_extends * n3
     overload = bend_load * m2 * m2 + slack * extension * extension + shear_load * n1 * n1

@@ -44,7 +44,6 @@ Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
 Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
-ROWS = 14  # of scratch
 KEPT = threading.local()  # scratch, from call to call
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LEAST = 2.0**-1022  # the smallest normal number, for one point
@@ -135,19 +134,9 @@ class Constants:
         return fraction, powers, start, slope, single
 
     @cached_property
-    def of_strains(self) -> tuple[float, ...]:
-        """What `strains` of one point takes."""
-        return (
-            self.plain.n3_extends, self.plain.shear_load, self.plain.slack, 0.5 * self.p,
-            -self.plain.per_p, self.plain.shear_soft, -self.plain.untwist, *self.plain.room[DOUBLE],
-        )
-
-    @cached_property
     def of_complementary_energy(self) -> tuple[float, ...]:
         """What `complementary_energy` of one point takes."""
-        return (
-            self.per_zeta, self.n3_dilates, self.gap, self.gamma, self.p, -self.per_p,
-        )
+        return (self.per_zeta, self.n3_dilates, self.gap, self.gamma, self.p, -self.per_p)
 
     @cached_property
     def of_compliance(self) -> tuple[float, ...]:
@@ -155,14 +144,6 @@ class Constants:
         return (
             self.per_zeta, self.n3_dilates, self.gap, self.gamma, self.p, -self.per_p, self.per_eta,
             self.per_zeta**2, self.per_eta**2, self.per_gap,
-        )
-
-    @cached_property
-    def of_strains_and_gap(self) -> tuple[float, ...]:
-        """What `strains_and_gap` of one point takes."""
-        return (
-            self.plain.n3_extends, self.plain.shear_load, self.plain.slack, 0.5 * self.p,
-            -self.plain.per_p, self.plain.shear_soft, -self.plain.untwist, *self.plain.room[DOUBLE],
         )
 
 
@@ -188,6 +169,14 @@ class Plain:
             self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(1024))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
+        self.of_strains = (
+            self.n3_extends, self.shear_load, self.slack, 0.5 * c.p, -self.per_p, self.shear_soft,
+            -self.untwist, *self.room[DOUBLE],
+        )
+        self.of_strains_and_gap = (
+            self.n3_extends, self.shear_load, self.slack, 0.5 * c.p, -self.per_p, self.shear_soft,
+            -self.untwist, *self.room[DOUBLE],
+        )
 
 
 def _rounded(ratio: Fraction) -> float:
@@ -195,34 +184,22 @@ def _rounded(ratio: Fraction) -> float:
     return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
-def _reduce_loads(loads: Rows, c: Constants, s: Rows) -> Rows:
+def _reduce_loads(loads: Rows, c: Constants) -> Rows:
     """Loads over their moduli, the linear rod's strains, and Q* in squares."""
     n1, n2, n3 = loads
-    nu_1 = np.multiply(c.per_zeta, n1, out=s[1])
-    nu_2 = np.multiply(c.per_zeta, n2, out=s[2])
-    dilatation = np.multiply(c.n3_dilates, n3, out=s[3])
-    twist = np.multiply(-c.chirality, dilatation, out=s[0])
-    q_star = np.square(dilatation, out=s[4])
-    q_star *= c.gap
-    q_star += np.square(nu_1, out=s[5])
-    q_star += np.square(nu_2, out=s[5])
+    nu_1, nu_2, dilatation = c.per_zeta * n1, c.per_zeta * n2, c.n3_dilates * n3
+    twist = -c.chirality * dilatation
+    q_star = c.gap * dilatation**2 + nu_1**2 + nu_2**2
     return nu_1, nu_2, dilatation, twist, q_star
 
 
-def _soften(y: Array, c: Constants, s: Rows) -> Rows:
+def _soften(y: Array, c: Constants) -> Rows:
     """Strain over load, (gamma^p + y^p)^(-1/p), by the ratio of gamma and y."""
     tiny = TINY[y.dtype]
-    larger = np.maximum(y, c.gamma, out=s[0])
-    ratio = np.minimum(y, c.gamma, out=s[1])
-    ratio /= larger
-    np.maximum(ratio, tiny, out=ratio)
-    power = np.log(ratio, out=s[2])
-    power *= c.p
-    np.exp(power, out=power)
-    factor = np.log1p(power, out=s[3])
-    factor *= -c.per_p
-    np.exp(factor, out=factor)
-    factor /= larger
+    larger = np.maximum(y, c.gamma)
+    ratio = np.maximum(np.minimum(y, c.gamma) / larger, tiny)
+    power = np.exp(c.p * np.log(ratio))
+    factor = np.exp(-c.per_p * np.log1p(power)) / larger
     return ratio, power, factor
 
 
@@ -233,51 +210,39 @@ def _largest(rows: Rows) -> Array:
 
 
 def _rescaled(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Any, Array]:
-    """Values of ``form`` (or ``known`` ones), the last of them, one over the scale, the square.
+    """Values of ``form``, the last of them, one over the scale, the square.
 
     Where squares would overflow or underflow the inputs are taken times a power of two, before
-    anything rounds; elsewhere, and at rest, this scale is one. None says that it is one everywhere.
-    The square comes twice, with the scale that the other values have, and without.
+    anything rounds; elsewhere, and at rest, this scale is one. The square comes twice, with the
+    scale that the other values have, and without.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        *values, square = known or form(inputs, c, s)
+        *values, square = form(inputs, c)
         low = TINY[square.dtype] * 2**60
-        if square.min() > low and square.max() < 1 / low:
-            return values, square, None, square
         odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
         if not odd.any():
             return values, square, 1.0, square
         power = np.frexp(_largest(inputs))[1]
-        *values, _ = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, _ = form([np.ldexp(row, -power) for row in inputs], c)
         power += np.frexp(_largest(values))[1] - 1
         deep = int(0.4 * math.log2(low))  # small values stay small, so that unscale does not
         power = np.where(odd, np.maximum(power, 0) + np.minimum(power - deep, 0), 0)
-        *values, square = form([np.ldexp(row, -power) for row in inputs], c, s)
+        *values, square = form([np.ldexp(row, -power) for row in inputs], c)
         unscale = np.ldexp(square.dtype.type(1), power)
         return values, square, unscale, square * unscale * unscale
 
 
 def _balanced(
-    form: Callable[[Rows, Constants, Rows], Rows],
-    inputs: Rows,
-    c: Constants,
-    s: Rows,
-    known: Rows = (),
+    form: Callable[[Rows, Constants], Rows], inputs: Rows, c: Constants
 ) -> tuple[Rows, Array, Array, Any, Array]:
     """As `_rescaled`, with roots: values, norm, radius, one over the scale, square.
 
     The values and the norm share the scale; the radius and its square are free of it.
     """
-    values, scaled, unscale, square = _rescaled(form, inputs, c, s, known)
-    size = np.sqrt(scaled, out=s[-1])
-    if unscale is None:
-        return values, size, size, None, square
+    values, scaled, unscale, square = _rescaled(form, inputs, c)
+    size = np.sqrt(scaled)
     with np.errstate(over="ignore"):
         radius = size * unscale
     return values, np.maximum(size, TINY[size.dtype]), radius, unscale, square
@@ -379,17 +344,6 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     return list(given)
 
 
-def _scratch(size: int, dtype: Any) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = size + 16  # rows that are a power of two apart would share their places in the cache
-    needed = ROWS * length * dtype.itemsize
-    memory = getattr(KEPT, "memory", None)
-    if memory is None or len(memory) < needed:
-        memory = KEPT.memory = np.empty(needed, np.uint8)
-    rows: Array = memory[:needed].view(dtype).reshape(ROWS, length)
-    return rows[:, :size]
-
-
 def _apply(
     body: Callable[..., None], inputs: Inputs, c: Constants, names: Sequence[str], out: Any
 ) -> list[Array]:
@@ -409,13 +363,11 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks))  # blocks of one length
-    scratch = _scratch(size, arrays[0].dtype)
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            work = scratch[:, : part.stop - start]
             rows = [row for a in given for row in a[:, part]]
-            body(rows, c, work, *(array[..., part] for array in flat))
+            body(rows, c, *(array[..., part] for array in flat))
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -452,21 +404,58 @@ def _numbers(array: Array) -> Any:
     return tuple(values) if array.ndim else values
 
 
-def _strains_plain(loads: Rows, c: Constants, work: Array, u3: Array, v: Array) -> bool:
-    """`_strains` where nothing is extreme; else False."""
+def _scratch(count: int, like: Array) -> Array:
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
+    length = like.size + 16  # rows a power of two apart would share their places in the cache
+    needed = count * length * like.itemsize
+    memory = getattr(KEPT, "memory", None)
+    if memory is None or len(memory) < needed:
+        memory = KEPT.memory = np.empty(needed, np.uint8)
+    rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
+    return rows[:, : like.size]
+
+
+def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
+    """Whether all of it lies between the bounds for its type; nan does not."""
+    low, high = within[square.dtype]
+    return bool(low < square[square.argmin()] and square[square.argmax()] < high)
+
+
+def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
+    """Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."""
     k = c.plain
     n1, n2, n3 = loads
-    s = [*work[:4]]
+    extension = np.multiply(k.n3_extends, n3, out=s[0])
+    overload = np.square(extension, out=s[1])
+    overload *= k.slack
+    np.square(n1, out=s[2])
+    s[2] += np.square(n2, out=s[3])
+    s[2] *= k.shear_load
+    overload += s[2]
+    return extension, overload
+
+
+def _spread(matrix: Array, weight: Array, vector: Array) -> None:
+    """weight vector vector^T, on and above the diagonal."""
+    for i, row in enumerate(vector):
+        np.multiply(weight * row, vector[i:], out=matrix[i, i:])
+
+
+def _mirror(matrix: Array) -> None:
+    """What is above the diagonal, below it."""
+    for i in range(1, len(matrix)):
+        matrix[i, :i] = matrix[:i, i]
+
+
+def _strains_plain(loads: Rows, c: Constants, u3: Array, v: Array) -> bool:
+    """`_strains` where nothing is extreme; else False."""
+    k = c.plain
+    n1, n2, _ = loads
+    work = _scratch(4, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[0])
-        overload = np.square(extension, out=s[1])
-        overload *= k.slack
-        np.square(n1, out=s[2])
-        s[2] += np.square(n2, out=s[3])
-        s[2] *= k.shear_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[1])
     excess *= 0.5 * c.p
@@ -484,30 +473,25 @@ def _strains_plain(loads: Rows, c: Constants, work: Array, u3: Array, v: Array) 
     return True
 
 
-def _strains(loads: Rows, c: Constants, work: Array, u3: Array, v: Array) -> None:
+def _strains(loads: Rows, c: Constants, u3: Array, v: Array) -> None:
     """(u3, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 n."""
-    if _strains_plain(loads, c, work, u3, v):
+    if _strains_plain(loads, c, u3, v):
         return
-    s = [u3, *v, *work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     nu_1, nu_2, dilatation, twist = values
-    *_, factor = _soften(y, c, s[5:])
-    reach = factor if unscale is None else factor * unscale
-    turn = np.multiply(c.per_beta, reach, out=s[4])
-    np.multiply(turn, twist, out=u3)
-    shear = np.multiply(c.per_zeta, reach, out=s[4])
-    np.multiply(nu_1, shear, out=v[0])
-    np.multiply(nu_2, shear, out=v[1])
-    extend = np.multiply(c.per_eta, reach, out=s[8])
-    np.multiply(dilatation, extend, out=v[2])
-    v[2] += 1
+    *_, factor = _soften(y, c)
+    reach = factor * unscale
+    turn, shear, extend = c.per_beta * reach, c.per_zeta * reach, c.per_eta * reach
+    u3[...] = turn * twist
+    v[0], v[1] = nu_1 * shear, nu_2 * shear
+    v[2] = dilatation * extend + 1
 
 
 def _strains_at(n: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
         n3_extends, shear_load, slack, half_p, minus_per_p, shear_soft, minus_untwist, low, high,
-    ) = c.of_strains
+    ) = c.plain.of_strains
     n1, n2, n3 = n
     extension = n3_extends * n3
     overload = slack * extension * extension + shear_load * (n1 * n1 + n2 * n2)
@@ -537,17 +521,13 @@ def strains(n: Given, constants: Constants, out: Pair | None = None) -> Pair:
     return u3, v
 
 
-def _complementary_energy(loads: Rows, c: Constants, work: Array, w_star: Array) -> None:
+def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
-    s = [*work]
-    _, _, y, _, _ = _balanced(_reduce_loads, loads, c, s)
-    ratio, power, factor = _soften(y, c, s[5:])
-    strain = np.multiply(factor, y, out=s[8])
-    depth = np.log1p(power, out=s[7])
-    depth -= np.multiply(c.p, np.where(y <= c.gamma, 0.0, np.log(ratio)), out=s[6])
-    np.subtract(1, _work_share(depth, c), out=w_star)
-    w_star *= strain
-    w_star *= y
+    _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
+    ratio, power, factor = _soften(y, c)
+    strain = factor * y
+    depth = np.log1p(power) - c.p * np.where(y <= c.gamma, 0.0, np.log(ratio))
+    w_star[...] = strain * y * (1 - _work_share(depth, c))
 
 
 def _complementary_energy_at(n: Any, c: Constants) -> Any:
@@ -584,56 +564,32 @@ def complementary_energy(n: Given, constants: Constants, out: Array | None = Non
     return w_star
 
 
-def _compliance(loads: Rows, c: Constants, work: Array, soft: Array) -> None:
+def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 n/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
-    s = [*work]
-    values, size, y, _, _ = _balanced(_reduce_loads, loads, c, s)
+    values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     nu_1, nu_2, dilatation, _ = values
-    _, power, factor = _soften(y, c, s[5:])
+    _, power, factor = _soften(y, c)
     tiny = TINY[y.dtype]
-    d = work[9:12]
-    share = np.add(power, 1, out=s[0])
-    np.divide(np.where(y <= c.gamma, power, 1.0), share, out=share)
-    steep = np.negative(factor, out=s[4])
-    steep *= share
-    per_size = np.divide(1, size, out=s[0])
-    b1 = np.add(nu_1, tiny, out=s[1])
-    b1 *= per_size
-    np.multiply(c.per_zeta, b1, out=d[0])
-    b2 = np.multiply(nu_2, per_size, out=s[2])
-    np.multiply(c.per_zeta, b2, out=d[1])
-    c6 = np.multiply(dilatation, per_size, out=s[3])
-    np.multiply(c.per_eta, c6, out=d[2])
-    for i in range(3):
-        np.multiply(steep, d[i], out=s[0])
-        np.multiply(s[0], d[i:], out=soft[i, i:])
-    remain = np.add(power, 1, out=s[4])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
-    bb1 = np.square(b1, out=s[1])
-    bb2 = np.square(b2, out=s[2])
-    cc6 = np.square(c6, out=s[3])
-    coupled = np.multiply(c.gap, cc6, out=s[7])
-    np.multiply(bb1, remain, out=soft[0, 0])
-    soft[0, 0] += bb2
-    soft[0, 0] += coupled
-    soft[0, 0] *= c.per_zeta**2
-    soft[0, 0] *= factor
-    np.multiply(bb2, remain, out=soft[1, 1])
-    np.add(bb1, soft[1, 1], out=soft[1, 1])
-    soft[1, 1] += coupled
-    soft[1, 1] *= c.per_zeta**2
-    soft[1, 1] *= factor
-    across = np.add(bb1, bb2, out=s[1])
-    np.multiply(c.per_gap, across, out=soft[2, 2])
-    soft[2, 2] += np.multiply(cc6, remain, out=s[3])
-    soft[2, 2] *= c.per_eta**2
-    soft[2, 2] *= factor
-    for i in range(1, 3):
-        soft[i, :i] = soft[:i, i]
+    d = np.empty_like(soft[0])
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    per_size = 1 / size
+    b1, share = per_size * (nu_1 + tiny), np.where(y <= c.gamma, power, 1.0) / (power + 1)
+    bb1 = b1**2
+    b2, c6 = nu_2 * per_size, dilatation * per_size
+    bb2, cc6 = b2**2, c6**2
+    across = bb1 + bb2
+    coupled = c.gap * cc6
+    steep = -factor * share
+    d[0], d[1], d[2] = c.per_zeta * b1, c.per_zeta * b2, c.per_eta * c6
+    _spread(soft, steep, d)
+    soft[0, 0] = c.per_zeta**2 * factor * (bb1 * remain + bb2 + coupled)
+    soft[1, 1] = c.per_zeta**2 * factor * (bb1 + bb2 * remain + coupled)
+    soft[2, 2] = c.per_eta**2 * factor * (c.per_gap * across + cc6 * remain)
+    _mirror(soft)
 
 
 def _compliance_at(n: Any, c: Constants) -> Any:
@@ -691,22 +647,16 @@ def compliance(n: Given, constants: Constants, out: Array | None = None) -> Arra
 
 
 def _strains_and_gap_plain(
-    loads: Rows, c: Constants, work: Array, u3: Array, v: Array, limit_gap: Array
+    loads: Rows, c: Constants, u3: Array, v: Array, limit_gap: Array
 ) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
-    n1, n2, n3 = loads
-    s = [*work[:4]]
+    n1, n2, _ = loads
+    work = _scratch(4, loads[0])
+    s = [*work]
     with np.errstate(over="ignore", invalid="ignore"):
-        extension = np.multiply(k.n3_extends, n3, out=s[0])
-        overload = np.square(extension, out=s[1])
-        overload *= k.slack
-        np.square(n1, out=s[2])
-        s[2] += np.square(n2, out=s[3])
-        s[2] *= k.shear_load
-        overload += s[2]
-    low, high = k.within_overload[overload.dtype]
-    if not (low < overload.min() and overload.max() < high):
+        extension, overload = _overload(loads, c, s)
+    if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[1])
     excess *= 0.5 * c.p
@@ -726,27 +676,19 @@ def _strains_and_gap_plain(
     return True
 
 
-def _strains_and_gap(
-    loads: Rows, c: Constants, work: Array, u3: Array, v: Array, limit_gap: Array
-) -> None:
+def _strains_and_gap(loads: Rows, c: Constants, u3: Array, v: Array, limit_gap: Array) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    if _strains_and_gap_plain(loads, c, work, u3, v, limit_gap):
+    if _strains_and_gap_plain(loads, c, u3, v, limit_gap):
         return
-    s = [*work]
-    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c, s)
+    values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     nu_1, nu_2, dilatation, twist = values
-    _, power, factor = _soften(y, c, s[5:])
-    reach = factor if unscale is None else factor * unscale
-    turn = np.multiply(c.per_beta, reach, out=s[4])
-    np.multiply(turn, twist, out=u3)
-    shear = np.multiply(c.per_zeta, reach, out=s[0])
-    np.multiply(nu_1, shear, out=v[0])
-    np.multiply(nu_2, shear, out=v[1])
-    extend = np.multiply(c.per_eta, reach, out=s[8])
-    np.multiply(dilatation, extend, out=v[2])
-    v[2] += 1
-    remain = np.add(power, 1, out=s[8])
-    np.divide(np.where(y <= c.gamma, 1.0, power), remain, out=remain)
+    _, power, factor = _soften(y, c)
+    reach = factor * unscale
+    turn, shear, extend = c.per_beta * reach, c.per_zeta * reach, c.per_eta * reach
+    remain = np.where(y <= c.gamma, 1.0, power) / (power + 1)
+    u3[...] = turn * twist
+    v[0], v[1] = nu_1 * shear, nu_2 * shear
+    v[2] = dilatation * extend + 1
     limit_gap[...] = remain
 
 
@@ -754,7 +696,7 @@ def _strains_and_gap_at(n: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
     (
         n3_extends, shear_load, slack, half_p, minus_per_p, shear_soft, minus_untwist, low, high,
-    ) = c.of_strains_and_gap
+    ) = c.plain.of_strains_and_gap
     n1, n2, n3 = n
     extension = n3_extends * n3
     overload = slack * extension * extension + shear_load * (n1 * n1 + n2 * n2)

@@ -1,0 +1,93 @@
+"""Lays text out in lines that hold it: assignments side by side, long sums, lists of names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from rodproof.codegen.kernel import Assignment
+from rodproof.codegen.targets.printer import SUM, Printer
+
+INDENT = "    "
+WIDTH = 100
+
+
+def grouped(
+    assignments: Sequence[Assignment], printer: Printer, most: int = 3, loosest: int = SUM
+) -> list[str]:
+    """A line for up to ``most`` assignments of one kind that do not need each other.
+
+    The lines are indented once; Python makes a tuple of four names and more.
+    """
+    left = list(assignments)
+    lines: list[str] = []
+    while left:
+        first, *left = left
+        group, text = [first], printer.text(first.expr, loosest)
+        line = f"{INDENT}{printer.name(first)} = {text}"
+        if len(line) > WIDTH:
+            lines += broken(printer.name(first), text)
+            continue
+        texts, unset = [text], {first.name, *(a.name for a in left)}
+        for a in tuple(left):
+            if len(group) == most:
+                break
+            early = {s.name for s in a.expr.free_symbols} & unset
+            if early or _kind(a, printer) != _kind(first, printer):
+                continue
+            more = [*texts, printer.text(a.expr, loosest)]
+            names = ", ".join(printer.name(b) for b in (*group, a))
+            longer = f"{INDENT}{names} = {', '.join(more)}"
+            if len(longer) > WIDTH:
+                break
+            line, texts = longer, more
+            group.append(a)
+            left.remove(a)
+        lines.append(line)
+    return lines
+
+
+def _kind(a: Assignment, printer: Printer) -> object:
+    """What stands on one line is alike: entries of an array, or expressions of the same form."""
+    if re.fullmatch(r"[a-z]\d\d", a.name):
+        return a.name[:2]
+    array, entry, _ = printer.name(a).partition("[")
+    form = a.expr.func, len(a.expr.args), all(arg.is_Atom for arg in a.expr.args)
+    return (array, form) if entry else form
+
+
+def broken(name: str, text: str) -> list[str]:
+    """A long sum, a few of its terms a line; or a product, its last factor by itself."""
+    lines = [""]
+    terms = _terms(text)
+    for piece in terms if len(terms) > 1 else text.replace(" * (", "\0* (", 1).split("\0"):
+        if len(lines[-1]) + len(piece) > WIDTH - 10:
+            lines.append("")
+        lines[-1] += f"{' ' * bool(lines[-1])}{piece}"
+    return [
+        f"{INDENT}{name} = (",
+        *(f"{INDENT * 2}{line}" for line in lines),
+        f"{INDENT})",
+    ]
+
+
+def _terms(text: str) -> list[str]:
+    """The terms of a sum with their signs; what stands in parentheses stays together."""
+    terms, depth = [""], 0
+    for word in text.split(" "):
+        if word in ("+", "-") and not depth:
+            terms.append(word)
+        else:
+            terms[-1] += f"{' ' * bool(terms[-1])}{word}"
+        depth += word.count("(") - word.count(")")
+    return terms
+
+
+def filled(pieces: Sequence[str], indent: str) -> list[str]:
+    """The pieces with commas, on as few lines as hold them."""
+    lines = [""]
+    for piece in pieces:
+        if len(indent + lines[-1] + piece) + 2 > WIDTH:
+            lines.append("")
+        lines[-1] += f"{' ' * bool(lines[-1])}{piece},"
+    return [indent + line for line in lines]
