@@ -319,7 +319,9 @@ def _rescaled(
     with np.errstate(over="ignore", invalid="ignore"):
         *values, square = form(inputs, c)
         low = TINY[square.dtype] * 2**60
-        odd = ~((low < square) & (square < 1 / low)) & (_largest(inputs) > 0)
+        odd = ~((low < square) & (square < 1 / low))
+        if odd.any():
+            odd &= _largest(inputs) > 0
         if not odd.any():
             return values, square, 1.0, square
         power = np.frexp(_largest(inputs))[1]
