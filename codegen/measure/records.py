@@ -195,7 +195,10 @@ def load(path: Path) -> Measurement:
             times=rows_of(TimeRow, record["times"]),
             missing=rows_of(Missing, record.get("missing", NONE)),
         )
-    except (KeyError, TypeError, ValueError) as error:
+    except KeyError as key:
+        wanted = "what `rodproof measure` writes is drawn, and of `--atlas` and `--integrators`"
+        raise ValueError(f"{path}: not a measurement: it holds no {key}; {wanted}") from None
+    except (TypeError, ValueError) as error:
         raise ValueError(f"{path}: not a measurement of rodproof ({error!r})") from None
 
 

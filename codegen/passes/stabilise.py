@@ -363,8 +363,6 @@ def complement_compliance(
     )
 
 
-COMPLEMENT_COMPLIANCE = complement_compliance(SOFTEN_DEFINITIONS)
-
 directions = (a1, a2, c3, b1, b2, c6)
 
 DIRECT_COMPLIANCE = Rule(

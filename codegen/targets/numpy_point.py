@@ -162,13 +162,16 @@ def point_constants(kernels: tuple[Kernel, ...]) -> list[str]:
 
 
 def point_values(kernels: tuple[Kernel, ...]) -> list[str]:
-    """The lines of the plain kernels' constants that collect these numbers."""
-    return [
-        line
-        for kernel in kernels
-        if kernel.plain and not is_part(kernel, kernels)
-        for line in _tuple(f"self.of_{kernel.name} = ", _values(kernel, "c"))
-    ]
+    """The lines of the plain kernels' constants that collect these numbers, alike ones once."""
+    found: dict[tuple[str, ...], str] = {}
+    lines: list[str] = []
+    for kernel in (k for k in kernels if k.plain and not is_part(k, kernels)):
+        values = tuple(_values(kernel, "c"))
+        same = found.setdefault(values, name := f"self.of_{kernel.name}")
+        lines += (
+            _tuple(f"{name} = ", [*values]) if same == name else [f"{INDENT * 2}{name} = {same}"]
+        )
+    return lines
 
 
 def _tuple(left: str, values: list[str]) -> list[str]:

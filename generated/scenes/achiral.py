@@ -210,10 +210,7 @@ class Plain:
             self.turning, self.slack, self.bending, self.shearing, 0.5 * c.p, c.gamma, -self.per_p,
             self.stretching, *self.room[DOUBLE],
         )
-        self.of_strains_and_gap = (
-            self.n3_extends, self.bend_load, self.shear_load, self.slack, self.turn_load, 0.5 * c.p,
-            -self.per_p, self.bend_soft, self.shear_soft, self.turn_soft, *self.room[DOUBLE],
-        )
+        self.of_strains_and_gap = self.of_strains
         self.of_stiffness_at_loads = (
             self.n3_extends, self.bend_load, self.shear_load, self.slack, self.turn_load, 0.5 * c.p,
             c.gamma, self.per_p, self.per_gamma, self.bending, self.turning, self.shearing,

@@ -178,10 +178,7 @@ class Plain:
             -self.m3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p, -self.per_p,
             self.bend_soft, self.turn_soft, self.untwist, *self.room[DOUBLE],
         )
-        self.of_strains_and_gap = (
-            -self.m3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p, -self.per_p,
-            self.bend_soft, self.turn_soft, self.untwist, *self.room[DOUBLE],
-        )
+        self.of_strains_and_gap = self.of_strains
 
 
 def _rounded(ratio: Fraction) -> float:

@@ -248,10 +248,7 @@ class Plain:
             c.iota, self.turning, self.slack, self.bending, self.untwist, self.per_turning,
             0.5 * c.p, c.gamma, -self.per_p, self.stretching, *self.room[DOUBLE],
         )
-        self.of_strains_and_gap = (
-            self.m3_extends, self.n3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p,
-            -self.per_p, self.bend_soft, self.turn_soft, self.untwist, *self.room[DOUBLE],
-        )
+        self.of_strains_and_gap = self.of_strains
         self.of_stiffness_at_loads = (
             self.m3_extends, self.n3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p,
             c.gamma, self.per_p, self.per_gamma, self.bending, self.turning, c.iota,

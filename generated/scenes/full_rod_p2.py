@@ -199,11 +199,7 @@ class Plain:
             c.iota, self.turning, self.slack, self.bending, self.shearing, self.untwist,
             self.per_turning, c.gamma, self.stretching, *self.room[DOUBLE],
         )
-        self.of_strains_and_gap = (
-            self.m3_extends, self.n3_extends, self.bend_load, self.shear_load, self.slack,
-            self.turn_load, self.bend_soft, self.shear_soft, self.turn_soft, self.untwist,
-            *self.room[DOUBLE],
-        )
+        self.of_strains_and_gap = self.of_strains
         self.of_stiffness_at_loads = (
             self.m3_extends, self.n3_extends, self.bend_load, self.shear_load, self.slack,
             self.turn_load, c.gamma, self.per_gamma, self.bending, self.turning, c.iota,

@@ -177,13 +177,8 @@ class Plain:
         self.of_loads = (
             self.turning, self.bending, 0.5 * c.p, c.gamma, -self.per_p, *self.room[DOUBLE],
         )
-        self.of_loads_and_stiffness = (
-            self.turning, self.bending, 0.5 * c.p, c.gamma, -self.per_p, *self.room[DOUBLE],
-        )
-        self.of_strains_and_gap = (
-            self.bend_load, self.turn_load, 0.5 * c.p, -self.per_p, self.bend_soft, self.turn_soft,
-            *self.room[DOUBLE],
-        )
+        self.of_loads_and_stiffness = self.of_loads
+        self.of_strains_and_gap = self.of_strains
         self.of_stiffness_at_loads = (
             self.bend_load, self.turn_load, 0.5 * c.p, c.gamma, self.per_p, self.per_gamma,
             self.bending, self.turning, *self.room[DOUBLE],

@@ -173,10 +173,7 @@ class Plain:
             self.n3_extends, self.shear_load, self.slack, 0.5 * c.p, -self.per_p, self.shear_soft,
             -self.untwist, *self.room[DOUBLE],
         )
-        self.of_strains_and_gap = (
-            self.n3_extends, self.shear_load, self.slack, 0.5 * c.p, -self.per_p, self.shear_soft,
-            -self.untwist, *self.room[DOUBLE],
-        )
+        self.of_strains_and_gap = self.of_strains
 
 
 def _rounded(ratio: Fraction) -> float:
