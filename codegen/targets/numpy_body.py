@@ -12,9 +12,10 @@ from rodproof.derivations.symbols import CONSTANTS
 
 SPREAD = '''\
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
-    """weight vector vector^T, on and above the diagonal."""
+    """weight vector vector^T, a row and its mirror image at a time."""
     for i, row in enumerate(vector):
         np.multiply(weight * row, vector[i:], out=matrix[i, i:])
+        matrix[i + 1 :, i] = matrix[i, i + 1 :]
 '''
 
 SPREAD_PACKED = '''\
@@ -89,10 +90,15 @@ def spread(kernel: Kernel) -> list[str]:
     return [f"_spread({dyad.array}, {dyad.weight}, {dyad.vector[0][0]})"] if dyad else []
 
 
-def matrix_lines(kernel: Kernel, packed: int) -> list[str]:
-    """The line that mirrors a matrix, if there is a whole one."""
+def mirrored(kernel: Kernel, packed: int) -> list[str]:
+    """The lines that mirror what is beside the dyad, or a whole matrix without one."""
     array, size = matrix_of(kernel)
-    return [f"_mirror({array})"] if size > 1 and not packed else []
+    if packed or size < 2:
+        return []
+    if kernel.dyad is None:
+        return [f"_mirror({array})"]
+    places = [o.index for found in beside(kernel).values() for o, _ in found]
+    return [f"{array}[{j}, {i}] = {array}[{i}, {j}]" for i, j in places if i != j]
 
 
 def beside(kernel: Kernel) -> dict[sp.Expr, list[tuple[Output, bool]]]:

@@ -18,7 +18,7 @@ from rodproof.codegen.targets.lines import INDENT, grouped
 from rodproof.codegen.targets.numpy_body import (
     beside,
     heading,
-    matrix_lines,
+    mirrored,
     packed_size,
     place_of,
     rows_name,
@@ -160,7 +160,7 @@ def _matrix(kernel: Kernel, printer: Printer, packed: int) -> list[str]:
     found = beside(kernel) if kernel.dyad else {o.expr: [(o, False)] for o in entries}
     for extra, places in found.items():
         lines += _put(extra, places, printer, packed)
-    return lines + matrix_lines(kernel, packed)
+    return lines + mirrored(kernel, packed)
 
 
 def _put(

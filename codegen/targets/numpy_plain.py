@@ -27,7 +27,7 @@ from rodproof.codegen.targets.lines import INDENT
 from rodproof.codegen.targets.numpy_body import (
     beside,
     heading,
-    matrix_lines,
+    mirrored,
     packed_size,
     place_of,
     rows_name,
@@ -242,7 +242,7 @@ def _arranged(kernel: Kernel, printer: Printer, packed: int, known: set[str]) ->
         for extra, entries in beside(kernel).items():
             settle([extra])
             work.extend(_added(extra, entries, printer, packed))
-    return work + [Call("", "", (line,), frozenset()) for line in matrix_lines(kernel, packed)]
+    return work + [Call("", "", (line,), frozenset()) for line in mirrored(kernel, packed)]
 
 
 def _added(

@@ -372,15 +372,10 @@ def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
-    """weight vector vector^T, on and above the diagonal."""
+    """weight vector vector^T, a row and its mirror image at a time."""
     for i, row in enumerate(vector):
         np.multiply(weight * row, vector[i:], out=matrix[i, i:])
-
-
-def _mirror(matrix: Array) -> None:
-    """What is above the diagonal, below it."""
-    for i in range(1, len(matrix)):
-        matrix[i, :i] = matrix[:i, i]
+        matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
 def _strains_plain(loads: Rows, c: Constants, u: Array, v: Array) -> bool:
@@ -507,7 +502,7 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     soft[3, 3] = c.per_zeta**2 * factor * (aa1 + aa2 + bb1 * remain + bb2 + coupled)
     soft[4, 4] = c.per_zeta**2 * factor * (aa1 + aa2 + bb1 + bb2 * remain + coupled)
     soft[5, 5] = c.per_eta**2 * factor * (cc6 * remain + c.per_gap * (aa3 + across))
-    _mirror(soft)
+    soft[5, 2] = soft[2, 5]
 
 
 def _compliance_at(m: Any, n: Any, c: Constants) -> Any:

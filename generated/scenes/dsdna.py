@@ -595,15 +595,10 @@ def _q(strains: Rows, c: Constants, s: Rows) -> Rows:
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
-    """weight vector vector^T, on and above the diagonal."""
+    """weight vector vector^T, a row and its mirror image at a time."""
     for i, row in enumerate(vector):
         np.multiply(weight * row, vector[i:], out=matrix[i, i:])
-
-
-def _mirror(matrix: Array) -> None:
-    """What is above the diagonal, below it."""
-    for i in range(1, len(matrix)):
-        matrix[i, :i] = matrix[:i, i]
+        matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
 def _strains_plain(loads: Rows, c: Constants, u: Array, v3: Array) -> bool:
@@ -891,7 +886,7 @@ def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
     stiff[2, 2] += np.multiply(k.turning, hard, out=s[1])
     stiff[2, 3] += np.multiply(c.iota, hard, out=s[1])
     stiff[3, 3] += np.multiply(k.stretching, hard, out=s[0])
-    _mirror(stiff)
+    stiff[3, 2] = stiff[2, 3]
     return True
 
 
@@ -919,7 +914,7 @@ def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     stiff[2, 2] += c.beta**2 * factor
     stiff[2, 3] += c.iota * factor
     stiff[3, 3] += c.eta**2 * factor
-    _mirror(stiff)
+    stiff[3, 2] = stiff[2, 3]
 
 
 def _stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
@@ -981,7 +976,7 @@ def _loads_and_stiffness_plain(
     stiff[2, 2] += np.multiply(k.turning, hard, out=s[4])
     stiff[2, 3] += np.multiply(c.iota, hard, out=s[4])
     stiff[3, 3] += np.multiply(k.stretching, hard, out=s[3])
-    _mirror(stiff)
+    stiff[3, 2] = stiff[2, 3]
     return True
 
 
@@ -1012,7 +1007,7 @@ def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n3: Array, stiff
     stiff[2, 2] += c.beta**2 * factor
     stiff[2, 3] += c.iota * factor
     stiff[3, 3] += c.eta**2 * factor
-    _mirror(stiff)
+    stiff[3, 2] = stiff[2, 3]
 
 
 def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
@@ -1107,7 +1102,7 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
         * (c3 * c6 * remain - c.per_gap * (a3 * b3 + c.chirality * across))
     )
     soft[3, 3] = c.per_eta**2 * factor * (cc6 * remain + c.per_gap * (aa3 + across))
-    _mirror(soft)
+    soft[3, 2] = soft[2, 3]
 
 
 def _compliance_at(m: Any, n3: Any, c: Constants) -> Any:
@@ -1298,7 +1293,7 @@ def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
     stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
     stiff[2, 3] += np.multiply(c.iota, hard, out=s[0])
     stiff[3, 3] += np.multiply(k.stretching, hard, out=s[2])
-    _mirror(stiff)
+    stiff[3, 2] = stiff[2, 3]
     return True
 
 
@@ -1323,7 +1318,7 @@ def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
     stiff[2, 2] += c.beta**2 * factor
     stiff[2, 3] += c.iota * factor
     stiff[3, 3] += c.eta**2 * factor
-    _mirror(stiff)
+    stiff[3, 2] = stiff[2, 3]
 
 
 def _stiffness_at_loads_at(m: Any, n3: Any, c: Constants) -> Any:

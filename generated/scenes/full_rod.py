@@ -587,15 +587,10 @@ def _q(strains: Rows, c: Constants, s: Rows) -> Rows:
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
-    """weight vector vector^T, on and above the diagonal."""
+    """weight vector vector^T, a row and its mirror image at a time."""
     for i, row in enumerate(vector):
         np.multiply(weight * row, vector[i:], out=matrix[i, i:])
-
-
-def _mirror(matrix: Array) -> None:
-    """What is above the diagonal, below it."""
-    for i in range(1, len(matrix)):
-        matrix[i, :i] = matrix[:i, i]
+        matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
 def _strains_plain(loads: Rows, c: Constants, u: Array, v: Array) -> bool:
@@ -917,7 +912,7 @@ def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
     stiff[3, 3] += s[1]
     stiff[4, 4] += s[1]
     stiff[5, 5] += np.multiply(k.stretching, hard, out=s[0])
-    _mirror(stiff)
+    stiff[5, 2] = stiff[2, 5]
     return True
 
 
@@ -949,7 +944,7 @@ def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     stiff[3, 3] += beside
     stiff[4, 4] += beside
     stiff[5, 5] += c.eta**2 * factor
-    _mirror(stiff)
+    stiff[5, 2] = stiff[2, 5]
 
 
 def _stiffness_at(u: Any, v: Any, c: Constants) -> Any:
@@ -1018,7 +1013,7 @@ def _loads_and_stiffness_plain(
     stiff[3, 3] += shear
     stiff[4, 4] += shear
     stiff[5, 5] += np.multiply(k.stretching, hard, out=s[3])
-    _mirror(stiff)
+    stiff[5, 2] = stiff[2, 5]
     return True
 
 
@@ -1052,7 +1047,7 @@ def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n: Array, stiff:
     stiff[3, 3] += beside
     stiff[4, 4] += beside
     stiff[5, 5] += c.eta**2 * factor
-    _mirror(stiff)
+    stiff[5, 2] = stiff[2, 5]
 
 
 def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
@@ -1163,7 +1158,7 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     soft[3, 3] = c.per_zeta**2 * factor * (aa1 + aa2 + bb1 * remain + bb2 + coupled)
     soft[4, 4] = c.per_zeta**2 * factor * (aa1 + aa2 + bb1 + bb2 * remain + coupled)
     soft[5, 5] = c.per_eta**2 * factor * (cc6 * remain + c.per_gap * (aa3 + across))
-    _mirror(soft)
+    soft[5, 2] = soft[2, 5]
 
 
 def _compliance_at(m: Any, n: Any, c: Constants) -> Any:
@@ -1376,7 +1371,7 @@ def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
     stiff[3, 3] += s[0]
     stiff[4, 4] += s[0]
     stiff[5, 5] += np.multiply(k.stretching, hard, out=s[2])
-    _mirror(stiff)
+    stiff[5, 2] = stiff[2, 5]
     return True
 
 
@@ -1404,7 +1399,7 @@ def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
     stiff[3, 3] += beside
     stiff[4, 4] += beside
     stiff[5, 5] += c.eta**2 * factor
-    _mirror(stiff)
+    stiff[5, 2] = stiff[2, 5]
 
 
 def _stiffness_at_loads_at(m: Any, n: Any, c: Constants) -> Any:

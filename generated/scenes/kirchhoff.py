@@ -507,15 +507,10 @@ def _q(strains: Rows, c: Constants, s: Rows) -> Array:
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
-    """weight vector vector^T, on and above the diagonal."""
+    """weight vector vector^T, a row and its mirror image at a time."""
     for i, row in enumerate(vector):
         np.multiply(weight * row, vector[i:], out=matrix[i, i:])
-
-
-def _mirror(matrix: Array) -> None:
-    """What is above the diagonal, below it."""
-    for i in range(1, len(matrix)):
-        matrix[i, :i] = matrix[:i, i]
+        matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
 def _strains_plain(loads: Rows, c: Constants, u: Array) -> bool:
@@ -769,7 +764,6 @@ def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
     stiff[0, 0] += s[1]
     stiff[1, 1] += s[1]
     stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
-    _mirror(stiff)
     return True
 
 
@@ -793,7 +787,6 @@ def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     stiff[0, 0] += beside
     stiff[1, 1] += beside
     stiff[2, 2] += c.beta**2 * factor
-    _mirror(stiff)
 
 
 def _stiffness_at(u: Any, c: Constants) -> Any:
@@ -849,7 +842,6 @@ def _loads_and_stiffness_plain(strains: Rows, c: Constants, m: Array, stiff: Arr
     stiff[0, 0] += bend
     stiff[1, 1] += bend
     stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
-    _mirror(stiff)
     return True
 
 
@@ -874,7 +866,6 @@ def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, stiff: Array) ->
     stiff[0, 0] += beside
     stiff[1, 1] += beside
     stiff[2, 2] += c.beta**2 * factor
-    _mirror(stiff)
 
 
 def _loads_and_stiffness_at(u: Any, c: Constants) -> Any:
@@ -945,7 +936,6 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     soft[0, 0] = c.per_alpha**2 * factor * (aa1 * remain + aa2 + aa3)
     soft[1, 1] = c.per_alpha**2 * factor * (aa1 + aa2 * remain + aa3)
     soft[2, 2] = c.per_beta**2 * factor * (aa3 * remain + across)
-    _mirror(soft)
 
 
 def _compliance_at(m: Any, c: Constants) -> Any:
@@ -1103,7 +1093,6 @@ def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
     stiff[0, 0] += s[1]
     stiff[1, 1] += s[1]
     stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
-    _mirror(stiff)
     return True
 
 
@@ -1124,7 +1113,6 @@ def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
     stiff[0, 0] += beside
     stiff[1, 1] += beside
     stiff[2, 2] += c.beta**2 * factor
-    _mirror(stiff)
 
 
 def _stiffness_at_loads_at(m: Any, c: Constants) -> Any:

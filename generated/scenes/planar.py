@@ -527,15 +527,10 @@ def _q(strains: Rows, c: Constants, s: Rows) -> Rows:
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
-    """weight vector vector^T, on and above the diagonal."""
+    """weight vector vector^T, a row and its mirror image at a time."""
     for i, row in enumerate(vector):
         np.multiply(weight * row, vector[i:], out=matrix[i, i:])
-
-
-def _mirror(matrix: Array) -> None:
-    """What is above the diagonal, below it."""
-    for i in range(1, len(matrix)):
-        matrix[i, :i] = matrix[:i, i]
+        matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
 def _strains_plain(loads: Rows, c: Constants, u2: Array, v: Array) -> bool:
@@ -804,7 +799,6 @@ def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
     stiff[0, 0] += np.multiply(k.bending, hard, out=s[1])
     stiff[1, 1] += np.multiply(k.shearing, hard, out=s[1])
     stiff[2, 2] += np.multiply(k.stretching, hard, out=s[0])
-    _mirror(stiff)
     return True
 
 
@@ -828,7 +822,6 @@ def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
     stiff[0, 0] += c.alpha**2 * factor
     stiff[1, 1] += c.zeta**2 * factor
     stiff[2, 2] += c.eta**2 * factor
-    _mirror(stiff)
 
 
 def _stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
@@ -887,7 +880,6 @@ def _loads_and_stiffness_plain(
     stiff[0, 0] += bend
     stiff[1, 1] += shear
     stiff[2, 2] += np.multiply(k.stretching, hard, out=s[3])
-    _mirror(stiff)
     return True
 
 
@@ -914,7 +906,6 @@ def _loads_and_stiffness(strains: Rows, c: Constants, m2: Array, n: Array, stiff
     stiff[0, 0] += c.alpha**2 * factor
     stiff[1, 1] += c.zeta**2 * factor
     stiff[2, 2] += c.eta**2 * factor
-    _mirror(stiff)
 
 
 def _loads_and_stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
@@ -993,7 +984,6 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     soft[0, 0] = c.per_alpha**2 * factor * (aa2 * remain + bb1 + bb3)
     soft[1, 1] = c.per_zeta**2 * factor * (aa2 + bb1 * remain + bb3)
     soft[2, 2] = c.per_eta**2 * factor * (across + bb3 * remain)
-    _mirror(soft)
 
 
 def _compliance_at(m2: Any, n: Any, c: Constants) -> Any:
@@ -1164,7 +1154,6 @@ def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
     stiff[0, 0] += np.multiply(k.bending, hard, out=s[0])
     stiff[1, 1] += np.multiply(k.shearing, hard, out=s[0])
     stiff[2, 2] += np.multiply(k.stretching, hard, out=s[2])
-    _mirror(stiff)
     return True
 
 
@@ -1185,7 +1174,6 @@ def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
     stiff[0, 0] += c.alpha**2 * factor
     stiff[1, 1] += c.zeta**2 * factor
     stiff[2, 2] += c.eta**2 * factor
-    _mirror(stiff)
 
 
 def _stiffness_at_loads_at(m2: Any, n: Any, c: Constants) -> Any:

@@ -435,15 +435,10 @@ def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
-    """weight vector vector^T, on and above the diagonal."""
+    """weight vector vector^T, a row and its mirror image at a time."""
     for i, row in enumerate(vector):
         np.multiply(weight * row, vector[i:], out=matrix[i, i:])
-
-
-def _mirror(matrix: Array) -> None:
-    """What is above the diagonal, below it."""
-    for i in range(1, len(matrix)):
-        matrix[i, :i] = matrix[:i, i]
+        matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
 def _strains_plain(loads: Rows, c: Constants, u3: Array, v: Array) -> bool:
@@ -588,7 +583,6 @@ def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
     soft[0, 0] = c.per_zeta**2 * factor * (bb1 * remain + bb2 + coupled)
     soft[1, 1] = c.per_zeta**2 * factor * (bb1 + bb2 * remain + coupled)
     soft[2, 2] = c.per_eta**2 * factor * (c.per_gap * across + cc6 * remain)
-    _mirror(soft)
 
 
 def _compliance_at(n: Any, c: Constants) -> Any:

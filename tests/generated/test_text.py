@@ -284,7 +284,7 @@ def slips() -> list[tuple[str, str, str]]:
     users |= {"_harden": "stiffness_at_loads"}
     plain = {"_overload": "strains", "_q": "loads_and_stiffness"}
     plain |= {f"_{name}_plain": name for name in NAIVE}
-    users |= {"_spread": "compliance", "_mirror": "compliance"}
+    users |= {"_spread": "compliance"}
     users |= plain | {f"_{name}": name for name in NAIVE}
     found = []
     for node in ast.parse(TEXT).body:
