@@ -71,11 +71,11 @@ def step_text(step: str, scene: Scene) -> str:
     }[step]
 
 
-def square_text(quantity: str, scene: Scene) -> str:
-    """What the plain bodies start from."""
-    if quantity == "overload":
-        return "Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."
-    return "Q as a sum of squares, and the coupled loads of the linear rod over gamma."
+def square_text(quantity: str, results: tuple[str, ...]) -> str:
+    """What the plain bodies start from, and what they take besides the quantity."""
+    square = "Q*/gamma^2" if quantity == "overload" else "Q"
+    besides = " and ".join(f"the {name.replace('_', ' ')}" for name in results[:-1])
+    return f"{square} as a sum of squares{f', and {besides}' * bool(besides)}."
 
 
 def shape_text(head: tuple[int, ...], layout: str) -> str:

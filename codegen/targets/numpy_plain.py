@@ -21,7 +21,6 @@ from rodproof.codegen.kernel import (
     Output,
     symbol,
 )
-from rodproof.codegen.scene import Scene
 from rodproof.codegen.targets.calls import Call, calls
 from rodproof.codegen.targets.lines import INDENT
 from rodproof.codegen.targets.numpy_body import (
@@ -155,14 +154,17 @@ def _down_to(quantity: str, kernel: Kernel) -> tuple[Assignment, ...]:
     return tuple(body)
 
 
-def square_function(square: Square, scene: Scene) -> str:
+def square_function(square: Square) -> str:
     """The shared beginning as a private function, in place."""
     comma = "," if len(square.inputs) == 1 else ""
     results = ", ".join(square.results)
     kind = "Rows" if len(square.results) > 1 else "Array"
     rows = rows_name(square.inputs)
     lines = [f"def _{square.quantity}({rows}: Rows, c: Constants, s: Rows) -> {kind}:"]
-    lines += [f'{INDENT}"""{square_text(square.quantity, scene)}"""', f"{INDENT}k = c.plain"]
+    lines += [
+        f'{INDENT}"""{square_text(square.quantity, square.results)}"""',
+        f"{INDENT}k = c.plain",
+    ]
     lines += [f"{INDENT}{', '.join(square.inputs)}{comma} = {rows}"]
     lines += [INDENT + line for line in square.printed.lines]
     return "\n".join([*lines, f"{INDENT}return {results}"])

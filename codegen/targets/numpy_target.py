@@ -83,7 +83,7 @@ def print_module(
     if raising:
         parts.append(_past_limit(limited[0], steps))
     parts += _plumbing(scene, kernels, raising=raising)
-    parts += [square_function(square, scene) for square in squares.values()]
+    parts += [square_function(square) for square in squares.values()]
     parts += _matrices(scene, bodies)
     default = " = ROD" if all_have_values(scene, kernels) else ""
     for kernel in kernels:

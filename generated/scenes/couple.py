@@ -427,7 +427,7 @@ def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
 
 
 def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
-    """Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."""
+    """Q*/gamma^2 as a sum of squares, and the extension."""
     k = c.plain
     m1, m2, m3 = loads
     extension = np.multiply(-k.m3_extends, m3, out=s[0])

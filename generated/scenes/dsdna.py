@@ -559,7 +559,7 @@ def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
 
 
 def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
-    """Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."""
+    """Q*/gamma^2 as a sum of squares, and the extension."""
     k = c.plain
     m1, m2, m3, n3 = loads
     extension = np.multiply(k.n3_extends, n3, out=s[0])
@@ -577,7 +577,7 @@ def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
 
 
 def _q(strains: Rows, c: Constants, s: Rows) -> Rows:
-    """Q as a sum of squares, and the coupled loads of the linear rod over gamma."""
+    """Q as a sum of squares, and the torque and the slack pull."""
     k = c.plain
     u1, u2, u3, v3 = strains
     stretch = np.subtract(v3, 1, out=s[0])

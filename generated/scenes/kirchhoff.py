@@ -481,7 +481,7 @@ def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
 
 
 def _overload(loads: Rows, c: Constants, s: Rows) -> Array:
-    """Q*/gamma^2 as a sum of squares, and what the loads extend the linear rod by."""
+    """Q*/gamma^2 as a sum of squares."""
     k = c.plain
     m1, m2, m3 = loads
     overload = np.square(m1, out=s[0])
@@ -494,7 +494,7 @@ def _overload(loads: Rows, c: Constants, s: Rows) -> Array:
 
 
 def _q(strains: Rows, c: Constants, s: Rows) -> Array:
-    """Q as a sum of squares, and the coupled loads of the linear rod over gamma."""
+    """Q as a sum of squares."""
     k = c.plain
     u1, u2, u3 = strains
     q = np.square(u1, out=s[0])
