@@ -44,7 +44,7 @@ def print_module(
         _constants(scene, kernels),
         *([template.WORK_SHARE] if needs_work_share(kernels) else []),
         *([template.SCALES] if any(kernel.gauge for kernel in kernels) else []),
-        *_moves(words, scene),
+        *_rows(words, scene),
         *(
             part
             for kernel in kernels
@@ -53,9 +53,9 @@ def print_module(
         numpy_template.arguments(scene.layout, scene.precision),
         template.APPLY.substitute(
             flat=flat,
-            shape="(*HEADS[name], points)",
-            trailing="-1:",
-            end="-1",
+            turned="" if first else ".T",
+            shape="HEADS[name] + shape" if first else "shape + HEADS[name]",
+            trailing="-1:" if first else ":1",
         ),
         *(_public(kernel, words[kernel.name], scene, kernels) for kernel in kernels),
     ]
@@ -103,6 +103,9 @@ def _imports(
         standard_imports="\n".join(standard),
         functions=", ".join(used),
         tuples="\n".join(kinds[n] for n in several) or "$",
+        streams=max(
+            sum(math.prod(head) for head in text.outputs.values()) for text in words.values()
+        ),
         heads="HEADS: dict[str, tuple[int, ...]] = {\n"
         + "".join(f'    "{name}": {head},\n' for name, head in heads.items())
         + "}",
@@ -124,22 +127,28 @@ def _constants(scene: Scene, kernels: tuple[Kernel, ...]) -> str:
     return f"{listed}\n\n\n{record}\n{made.rstrip()}\n{tail}"
 
 
-def _moves(words: Mapping[str, FunctionText], scene: Scene) -> list[str]:
-    """The functions that copy rows of one block to where they belong."""
-    texts: dict[str, None] = {}
-    for text in words.values():
-        for name, head in text.outputs.items() if _matrix(text) else ():
-            if _is_matrix(name, head) and len(head) == 2:
-                places = [_at("a", scene, *at, at="begin + i") for at in (("j", "k"), ("k", "j"))]
-                lines = (f"{INDENT * 4}{place} = rows[first + i]" for place in places)
-                made = template.SPREAD.substitute(
-                    name=_suffix(head), size=head[0], places="\n".join(lines)
-                )
-            else:
-                place = _at("a", scene, "k", at="begin + i")
-                made = template.MOVE.substitute(length=head[0], place=place)
-            texts[made] = None
-    return list(texts)
+def _rows(words: Mapping[str, FunctionText], scene: Scene) -> list[str]:
+    """The functions that read and write points, and those that make matrices whole."""
+    first = scene.layout == "first"
+    moved = template.ROWS.substitute(
+        axis="kind.ndim - 1" if first else "0",
+        index="builder.add(builder.mul(points, points.type(k)), i)"
+        if first
+        else "builder.add(builder.mul(i, i.type(count)), i.type(k))",
+    )
+    sizes = {_matrix(text)[0] for text in words.values() if len(_matrix(text)) == 2}
+    return [*(_whole(size) for size in sorted(sizes)), moved]
+
+
+def _whole(size: int) -> str:
+    rows = (", ".join(f"k[{k}]" for k in row) for row in _places(size))
+    entries = "\n".join(f"{INDENT * 2}{row}," for row in rows)
+    return template.WHOLE.substitute(size=size, entries=entries)
+
+
+def _places(size: int) -> list[list[int]]:
+    """The place of each entry of a matrix among those on and above the diagonal."""
+    return [[_row(size, min(j, k), max(j, k)) for k in range(size)] for j in range(size)]
 
 
 def _matrix(text: FunctionText) -> tuple[int, ...]:
@@ -154,17 +163,6 @@ def _is_matrix(name: str, head: tuple[int, ...]) -> bool:
 def _entries(head: tuple[int, ...]) -> int:
     """How many numbers an output has, a matrix on and above its diagonal."""
     return math.prod(head) if len(head) < 2 else head[0] * (head[0] + 1) // 2
-
-
-def _suffix(head: tuple[int, ...]) -> str:
-    return "_".join(map(str, head))
-
-
-def _at(array: str, scene: Scene, *index: int | str, at: str = "i") -> str:
-    """An entry of an array at a point."""
-    place = [str(k) for k in index]
-    whole = [*place, at] if scene.layout == "first" else [at, *place]
-    return f"{array}[{', '.join(whole)}]"
 
 
 def _compiled(
@@ -197,67 +195,9 @@ def _compiled(
     parts = ["\n".join([*lines, *returned])]
     if square:
         parts.append(_careful(kernel, watched))
-    stores, moves, rows = _storing(text, scene)
     parts.append(_at_one(kernel, text, watched))
-    parts.append(_store(kernel, text, stores, rows))
-    parts.append(_over(kernel, text, watched, scene, moves, rows))
+    parts.append(_over(kernel, text, watched, scene))
     return parts
-
-
-def _storing(text: FunctionText, scene: Scene) -> tuple[list[str], list[str], int]:
-    """The places of a point's values, what is moved after a block, and the rows that this takes.
-
-    Beside a matrix all goes through rows of one block: a compiler that would have to tell 42 rows
-    of unknown distance apart does not vectorise the loop.
-    """
-    if not _matrix(text):
-        places = [
-            _at(name, scene, *at)
-            for name, head in text.outputs.items()
-            for at in ([(k,) for k in range(head[0])] if head else [()])
-        ]
-        return places, [], 0
-    moves, rows = [], _entries(_matrix(text))
-    for name, head in text.outputs.items():
-        if _is_matrix(name, head):
-            whole = (
-                f"_spread_{_suffix(head)}(rows" if len(head) == 2 else f"_move_{head[0]}(rows, 0"
-            )
-            moves.append(f"{whole}, begin, end, {name})")
-        else:
-            moves.append(f"_move_{_entries(head)}(rows, {rows}, begin, end, {name})")
-            rows += _entries(head)
-    return [f"rows[{k} * BLOCK + i]" for k in _row_order(text)], moves, rows
-
-
-def _row_order(text: FunctionText) -> list[int]:
-    """The row of each value: those of the matrix come first."""
-    found: list[int] = []
-    rest = _entries(_matrix(text))
-    for name, head in text.outputs.items():
-        count = _entries(head)
-        start = 0 if _is_matrix(name, head) else rest
-        rest += 0 if _is_matrix(name, head) else count
-        found += range(start, start + count)
-    return found
-
-
-def _store(kernel: Kernel, text: FunctionText, places: list[str], rows: int) -> str:
-    """The function that stores the values of a point."""
-    arrays = ["rows"] if rows else list(text.outputs)
-    given = ", ".join(f"{name}: Array" for name in arrays)
-    lines = [
-        "@at_point",
-        f"def _store_{kernel.name}(values: Any, i: int, {given}) -> None:",
-        f'{INDENT}"""Stores what `_{kernel.name}` answers for a point."""',
-    ]
-    line = f"{INDENT}{', '.join(places)} = values"
-    if len(line) <= 100:
-        return "\n".join([*lines, line])
-    chunks = [", ".join(places[k : k + 4]) + "," for k in range(0, len(places), 4)]
-    return "\n".join(
-        [*lines, f"{INDENT}(", *(INDENT * 2 + c for c in chunks), f"{INDENT}) = values"]
-    )
 
 
 def _careful(kernel: Kernel, watched: list[str]) -> str:
@@ -304,9 +244,7 @@ def _nested(text: FunctionText) -> list[str]:
     for name, head in text.outputs.items():
         count = _entries(head)
         if len(head) == 2:
-            n = head[0]
-            rows = [[first + _row(n, min(j, k), max(j, k)) for k in range(n)] for j in range(n)]
-            texts = [", ".join(f"values[{k}]" for k in row) for row in rows]
+            texts = [", ".join(f"values[{first + k}]" for k in r) for r in _places(head[0])]
             alone = len(text.outputs) == 1
             opening = "return (" if alone else f"{name} = ("
             lines += [INDENT + opening, *(f"{INDENT * 2}({r})," for r in texts), f"{INDENT})"]
@@ -324,35 +262,28 @@ def _row(size: int, j: int, k: int) -> int:
     return j * size - j * (j + 1) // 2 + k
 
 
-def _over(
-    kernel: Kernel,
-    text: FunctionText,
-    watched: list[str],
-    scene: Scene,
-    moves: list[str],
-    rows: int,
-) -> str:
+def _over(kernel: Kernel, text: FunctionText, watched: list[str], scene: Scene) -> str:
     """The loop over points."""
     square = scalar.square(kernel, scalar.NUMBA)
     quantity = watched[-1] if watched and watched[-1] != square else ""
-    point = ", ".join(
-        _at(name, scene, *((k,) if head else ()))
-        for name, head in text.inputs.items()
-        for k in range(head[0] if head else 1)
-    )
-    first = next(iter(text.inputs))
-    call = f"_{kernel.name}({point}, c{', 1.0' if square else ''})"
-    arrays = "i - begin, rows" if rows else f"i, {', '.join(text.outputs)}"
-    stores = [f"_store_{kernel.name}(values, {arrays})"]
-    quick = [f"{', '.join(['values', *watched])} = {call}", *stores]
+    names = iter(kernel.inputs)
+    reads = []
+    for name, head in text.inputs.items():
+        count = math.prod(head)
+        point = "".join(f"{next(names)}, " for _ in range(count)).removesuffix(" " * (count > 1))
+        reads.append(f"{point.rstrip(', ') if count > 1 else point} = _get({name}, {count}, i)")
+    arguments = ", ".join(kernel.inputs)
+    call = f"_{kernel.name}({arguments}, c{', 1.0' if square else ''})"
+    stores = _stores(text)
+    quick = [*reads, f"{', '.join(['values', *watched])} = {call}", *stores]
     quick += ["fine &= (square > LOW) & (square < HIGH)"] if square else []
     quick += [f"fine &= {quantity} < 1"] if quantity else []
     again = []
     if square:
         result = ", ".join(["values", *watched[1:]])
-        again += [f"{result} = _careful_{kernel.name}({point}, c)", *stores]
+        again += [*reads, f"{result} = _careful_{kernel.name}({arguments}, c)", *stores]
     elif quantity:
-        again += [f"_, {quantity} = {call}"]
+        again += [*reads, f"_, {quantity} = {call}"]
     if quantity:
         again += [
             f"if not {quantity} < 1:",
@@ -365,14 +296,35 @@ def _over(
         about=template.ABOUT_PAST if quantity else "",
         given=", ".join(f"{name}: Array" for name in text.inputs),
         taken=", ".join(f"{name}: Array" for name in text.outputs),
-        points=f"{first}.shape[{-1 if scene.layout == 'first' else 0}]",
-        rows=f"\n{INDENT}rows = np.empty({rows} * BLOCK)" if rows else "",
+        points=f"{next(iter(text.inputs))}.shape[{-1 if scene.layout == 'first' else 0}]",
+        spans=_spans(text),
         fine="fine = True" if again else "$",
         quick="\n".join(_indented(quick, 3)),
         careful=careful,
-        moves="".join(f"{INDENT * 2}{line}\n" for line in moves),
     )
     return whole.replace(f"{INDENT * 2}$\n", "")
+
+
+def _stores(text: FunctionText) -> list[str]:
+    """The lines that store a point's values, each array's own."""
+    lines: list[str] = []
+    row = first = 0
+    for name, head in text.outputs.items():
+        count = _entries(head)
+        values = f"values[{first}:{first + count}]" if len(text.outputs) > 1 else "values"
+        if not head and len(text.outputs) == 1:
+            values = "(values,)"
+        if len(head) == 2:
+            values = f"_whole_{head[0]}({values})"
+        lines.append(f"_put({name}, {row}, i, {values})")
+        row, first = row + math.prod(head), first + count
+    return lines
+
+
+def _spans(text: FunctionText) -> str:
+    """Where inputs and results are in memory, as two tuples."""
+    both = ([f"_span({name})" for name in names] for names in (text.inputs, text.outputs))
+    return ", ".join(f"({', '.join(spans)}{',' * (len(spans) == 1)})" for spans in both)
 
 
 def _indented(lines: list[str], depth: int) -> list[str]:

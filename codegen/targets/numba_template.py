@@ -15,7 +15,8 @@ from math import $functions
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
+from numba import njit, types
+from numba.extending import intrinsic
 from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
@@ -26,6 +27,7 @@ BLOCK = 256  # points that are done again with care if one of them needs it
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 LEAST = 2.0**-1022  # the smallest normal number
 LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
+STREAMS = $streams  # rows that a loop writes, at most
 DOUBLE = np.dtype(np.float64)
 EXP_40 = 4.248354255291589e-18  # exp(-40)
 LN2, LN2_REST = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # log 2, in two parts
@@ -177,15 +179,17 @@ $lines
 
 OVER = Template('''\
 @over_points
-def _${name}_over($given, c: Values, $taken) -> tuple[int, Any, float]:
+def _${name}_over(numbers: Any, $given, $taken) -> tuple[int, Any, float]:
     """`$name` at every point$about."""
-    points, past, first, worst = $points, 0, np.int64(0), 0.0$rows
+    c, points, past, first, worst = Values(*numbers), $points, 0, np.int64(0), 0.0
+    if _shared($spans):
+        return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         $fine
         for i in range(begin, end):
 $quick
-$careful$moves    return past, first, worst
+$careful    return past, first, worst
 ''')
 CAREFULLY = Template("""\
         if not fine:
@@ -194,25 +198,86 @@ $lines
 """)
 ABOUT_PAST = "; points past the limit, the first, its Q"
 
-SPREAD = Template('''\
+WHOLE = Template('''\
 @at_point
-def _spread_$name(rows: Array, begin: int, end: int, a: Array) -> None:
-    """Copies the first rows, entries on and above the diagonal, to their places in a matrix."""
-    first = 0
-    for j in range($size):
-        for k in range(j, $size):
-            for i in range(end - begin):
-$places
-            first += BLOCK
+def _whole_$size(k: Any) -> Any:
+    """A symmetric matrix by rows, from its entries on and above the diagonal."""
+    return (
+$entries
+    )
 ''')
 
-MOVE = Template('''\
+#: How a loop reads and writes. The rows of a result are as far apart as there are points, which a
+#: compiler that has to prove them apart cannot know: it would compare the addresses of each two,
+#: finds 42 too many for that, and makes no vectors.
+ROWS = Template('''\
+def _places(context: Any, builder: Any, kind: Any, array: Any, i: Any, count: int) -> list[Any]:
+    """Where the numbers of point ``i`` are in an array."""
+    made = context.make_array(kind)(context, builder, array)
+    points = builder.extract_value(made.shape, $axis)
+    index = [$index for k in range(count)]
+    return [builder.gep(made.data, [at], inbounds=True) for at in index]
+
+
+def _streams(builder: Any) -> tuple[list[Any], Any]:
+    """Names of memory for the compiler: of each row of the results, and of all inputs.
+
+    They hold for the arrays of one call, so the function may not become part of another.
+    """
+    builder.function.attributes.add("noinline")
+    named, law = builder.module.add_metadata, builder.module.add_metadata(["law"])
+    return [named([f"result {k}", law]) for k in range(STREAMS)], named(["inputs", law])
+
+
+@intrinsic(prefer_literal=True)
+def _get(_: Any, array: Any, count: Any, i: Any) -> Any:
+    """The numbers of point ``i``, of an input that shares no memory with any result."""
+
+    def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        _, inputs = _streams(builder)
+        values = []
+        for place in _places(context, builder, array, args[0], args[2], count.literal_value):
+            value = builder.load(place)
+            value.set_metadata("alias.scope", builder.module.add_metadata([inputs]))
+            values.append(context.cast(builder, value, array.dtype, types.float64))
+        return context.make_tuple(builder, signature.return_type, values)
+
+    found = types.UniTuple(types.float64, count.literal_value)
+    return found(array, count, types.uint64), code
+
+
+@intrinsic(prefer_literal=True)
+def _put(_: Any, array: Any, row: Any, i: Any, values: Any) -> Any:
+    """Stores numbers of point ``i``, from the given row on of all results together."""
+
+    def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        named, (rows, inputs) = builder.module.add_metadata, _streams(builder)
+        places = _places(context, builder, array, args[0], args[2], len(values))
+        for k, place in enumerate(places):
+            value = builder.extract_value(args[3], k)
+            store = builder.store(context.cast(builder, value, values[k], array.dtype), place)
+            own = rows[row.literal_value + k]
+            store.set_metadata("alias.scope", named([own]))
+            store.set_metadata("noalias", named([r for r in (*rows, inputs) if r is not own]))
+        return context.get_dummy_value()
+
+    return types.void(array, row, types.uint64, values), code
+
+
 @at_point
-def _move_$length(rows: Array, first: int, begin: int, end: int, a: Array) -> None:
-    """Copies rows from the first on."""
-    for k in range($length):
-        for i in range(end - begin):
-            $place = rows[(first + k) * BLOCK + i]
+def _span(a: Array) -> tuple[int, int]:
+    """Where the memory of an array begins and ends."""
+    return a.ctypes.data, a.ctypes.data + a.nbytes
+
+
+@at_point
+def _shared(inputs: Any, results: Any) -> bool:
+    """Whether a result's memory is that of an input or of another result."""
+    met = 0
+    for begin, end in results:
+        for start, stop in inputs + results:
+            met += start < end and begin < stop
+    return met > len(results)  # each meets itself
 ''')
 
 APPLY = Template('''\
@@ -222,39 +287,47 @@ def _apply(
     c: Constants,
     names: Sequence[str],
     out: Any,
-) -> list[Array]:
+) -> Sequence[Array]:
     """Runs ``over`` on all points, straight into the results where that is safe."""
-    results = list(out) if isinstance(out, tuple) else [out]
-    arrays: list[Any] = list(inputs.values())
-    if not _plain([*inputs, *names], [*arrays, *results], len(arrays)):
+    given: Sequence[Any] = tuple(inputs.values())
+    shape = given[0].shape[$trailing] if type(given[0]) is np.ndarray else ()
+    results: Sequence[Any] = out if type(out) is tuple else (out,)
+    if out is None:
+        results = [np.empty($shape) for name in names]
+    flat, straight = results, True
+    if not shape or not _plain((*inputs, *names), (*given, *results), shape):
         arrays, shape = _arguments(inputs)
         results = _results(names, shape, arrays[0].dtype, out)
         points = math.prod(shape)
         given = [
-            np.ascontiguousarray(array.reshape(*HEADS[name], points))
+            np.require(array.reshape(*HEADS[name], points)$turned, requirements=["C", "A"])
             for name, array in zip(inputs, arrays, strict=True)
         ]
-        flat = [np.empty(($flat)) for name in names]
-    else:
-        shape, given, flat = arrays[0].shape[$trailing], arrays, results
-    past, first, q = over(*given, c.values, *flat)
+        straight = all(r.flags.carray and r.dtype == DOUBLE for r in results)
+        flat = [
+            r.reshape($flat) if straight else np.empty(($flat))
+            for name, r in zip(names, results, strict=True)
+        ]
+    past, first, q = over(tuple(c.values), *given, *flat)
+    if past < 0:  # something shares memory
+        straight, flat = False, [np.empty_like(values) for values in flat]
+        past, first, q = over(tuple(c.values), *given, *flat)
     if past:
         index = tuple(map(int, np.unravel_index(first, shape)))
         where = f"{past} of {math.prod(shape)} do not, the first at index {index} with Q = {q!r}"
         raise ValueError(f"strains must satisfy Q(u, v) < 1: {where}")
-    if flat is not results:
+    if not straight:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
     return results
 
 
-def _plain(names: Sequence[str], arrays: Sequence[Any], inputs: int) -> bool:
-    """Whether the arrays are as the loops want them: rows of doubles of one length, none shared."""
-    if any(type(a) is not np.ndarray or a.dtype is not DOUBLE for a in arrays):
-        return False
-    points = arrays[0].shape[$end]
-    return all(
-        a.shape == $shape and a.flags.c_contiguous
-        for name, a in zip(names, arrays, strict=True)
-    ) and not any(np.may_share_memory(r, a) for r in arrays[inputs:] for a in arrays[:inputs])
+def _plain(names: Sequence[str], arrays: Sequence[Any], shape: tuple[int, ...]) -> bool:
+    """Whether the arrays are as the loops want them: rows of doubles, of one length."""
+    for name, a in zip(names, arrays, strict=True):
+        if type(a) is not np.ndarray or a.dtype is not DOUBLE or not a.flags.carray:
+            return False
+        if a.shape != $shape:
+            return False
+    return True
 ''')

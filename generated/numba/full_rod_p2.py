@@ -38,7 +38,8 @@ from math import frexp, ldexp, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
+from numba import njit, types
+from numba.extending import intrinsic
 from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
@@ -50,6 +51,7 @@ BLOCK = 256  # points that are done again with care if one of them needs it
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 LEAST = 2.0**-1022  # the smallest normal number
 LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
+STREAMS = 42  # rows that a loop writes, at most
 DOUBLE = np.dtype(np.float64)
 EXP_40 = 4.248354255291589e-18  # exp(-40)
 LN2, LN2_REST = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # log 2, in two parts
@@ -181,23 +183,85 @@ def _scale(largest: float, shift: int) -> float:
 
 
 @at_point
-def _spread_6_6(rows: Array, begin: int, end: int, a: Array) -> None:
-    """Copies the first rows, entries on and above the diagonal, to their places in a matrix."""
-    first = 0
-    for j in range(6):
-        for k in range(j, 6):
-            for i in range(end - begin):
-                a[j, k, begin + i] = rows[first + i]
-                a[k, j, begin + i] = rows[first + i]
-            first += BLOCK
+def _whole_6(k: Any) -> Any:
+    """A symmetric matrix by rows, from its entries on and above the diagonal."""
+    return (
+        k[0], k[1], k[2], k[3], k[4], k[5],
+        k[1], k[6], k[7], k[8], k[9], k[10],
+        k[2], k[7], k[11], k[12], k[13], k[14],
+        k[3], k[8], k[12], k[15], k[16], k[17],
+        k[4], k[9], k[13], k[16], k[18], k[19],
+        k[5], k[10], k[14], k[17], k[19], k[20],
+    )
+
+
+def _places(context: Any, builder: Any, kind: Any, array: Any, i: Any, count: int) -> list[Any]:
+    """Where the numbers of point ``i`` are in an array."""
+    made = context.make_array(kind)(context, builder, array)
+    points = builder.extract_value(made.shape, kind.ndim - 1)
+    index = [builder.add(builder.mul(points, points.type(k)), i) for k in range(count)]
+    return [builder.gep(made.data, [at], inbounds=True) for at in index]
+
+
+def _streams(builder: Any) -> tuple[list[Any], Any]:
+    """Names of memory for the compiler: of each row of the results, and of all inputs.
+
+    They hold for the arrays of one call, so the function may not become part of another.
+    """
+    builder.function.attributes.add("noinline")
+    named, law = builder.module.add_metadata, builder.module.add_metadata(["law"])
+    return [named([f"result {k}", law]) for k in range(STREAMS)], named(["inputs", law])
+
+
+@intrinsic(prefer_literal=True)
+def _get(_: Any, array: Any, count: Any, i: Any) -> Any:
+    """The numbers of point ``i``, of an input that shares no memory with any result."""
+
+    def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        _, inputs = _streams(builder)
+        values = []
+        for place in _places(context, builder, array, args[0], args[2], count.literal_value):
+            value = builder.load(place)
+            value.set_metadata("alias.scope", builder.module.add_metadata([inputs]))
+            values.append(context.cast(builder, value, array.dtype, types.float64))
+        return context.make_tuple(builder, signature.return_type, values)
+
+    found = types.UniTuple(types.float64, count.literal_value)
+    return found(array, count, types.uint64), code
+
+
+@intrinsic(prefer_literal=True)
+def _put(_: Any, array: Any, row: Any, i: Any, values: Any) -> Any:
+    """Stores numbers of point ``i``, from the given row on of all results together."""
+
+    def code(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        named, (rows, inputs) = builder.module.add_metadata, _streams(builder)
+        places = _places(context, builder, array, args[0], args[2], len(values))
+        for k, place in enumerate(places):
+            value = builder.extract_value(args[3], k)
+            store = builder.store(context.cast(builder, value, values[k], array.dtype), place)
+            own = rows[row.literal_value + k]
+            store.set_metadata("alias.scope", named([own]))
+            store.set_metadata("noalias", named([r for r in (*rows, inputs) if r is not own]))
+        return context.get_dummy_value()
+
+    return types.void(array, row, types.uint64, values), code
 
 
 @at_point
-def _move_3(rows: Array, first: int, begin: int, end: int, a: Array) -> None:
-    """Copies rows from the first on."""
-    for k in range(3):
-        for i in range(end - begin):
-            a[k, begin + i] = rows[(first + k) * BLOCK + i]
+def _span(a: Array) -> tuple[int, int]:
+    """Where the memory of an array begins and ends."""
+    return a.ctypes.data, a.ctypes.data + a.nbytes
+
+
+@at_point
+def _shared(inputs: Any, results: Any) -> bool:
+    """Whether a result's memory is that of an input or of another result."""
+    met = 0
+    for begin, end in results:
+        for start, stop in inputs + results:
+            met += start < end and begin < stop
+    return met > len(results)  # each meets itself
 
 
 @at_point
@@ -253,27 +317,29 @@ def strains_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     return values[0:3], values[3:6]
 
 
-@at_point
-def _store_strains(values: Any, i: int, u: Array, v: Array) -> None:
-    """Stores what `_strains` answers for a point."""
-    u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i] = values
-
-
 @over_points
-def _strains_over(m: Array, n: Array, c: Values, u: Array, v: Array) -> tuple[int, Any, float]:
+def _strains_over(numbers: Any, m: Array, n: Array, u: Array, v: Array) -> tuple[int, Any, float]:
     """`strains` at every point."""
-    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
+    c, points, past, first, worst = Values(*numbers), m.shape[-1], 0, np.int64(0), 0.0
+    if _shared((_span(m), _span(n)), (_span(u), _span(v))):
+        return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, square = _strains(m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c, 1.0)
-            _store_strains(values, i, u, v)
+            m1, m2, m3 = _get(m, 3, i)
+            n1, n2, n3 = _get(n, 3, i)
+            values, square = _strains(m1, m2, m3, n1, n2, n3, c, 1.0)
+            _put(u, 0, i, values[0:3])
+            _put(v, 3, i, values[3:6])
             fine &= (square > LOW) & (square < HIGH)
         if not fine:
             for i in range(begin, end):
-                values = _careful_strains(m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c)
-                _store_strains(values, i, u, v)
+                m1, m2, m3 = _get(m, 3, i)
+                n1, n2, n3 = _get(n, 3, i)
+                values = _careful_strains(m1, m2, m3, n1, n2, n3, c)
+                _put(u, 0, i, values[0:3])
+                _put(v, 3, i, values[3:6])
     return past, first, worst
 
 
@@ -330,28 +396,30 @@ def loads_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
     return values[0:3], values[3:6]
 
 
-@at_point
-def _store_loads(values: Any, i: int, m: Array, n: Array) -> None:
-    """Stores what `_loads` answers for a point."""
-    m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i] = values
-
-
 @over_points
-def _loads_over(u: Array, v: Array, c: Values, m: Array, n: Array) -> tuple[int, Any, float]:
+def _loads_over(numbers: Any, u: Array, v: Array, m: Array, n: Array) -> tuple[int, Any, float]:
     """`loads` at every point; points past the limit, the first, its Q."""
-    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
+    c, points, past, first, worst = Values(*numbers), u.shape[-1], 0, np.int64(0), 0.0
+    if _shared((_span(u), _span(v)), (_span(m), _span(n))):
+        return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, square, q = _loads(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c, 1.0)
-            _store_loads(values, i, m, n)
+            u1, u2, u3 = _get(u, 3, i)
+            v1, v2, v3 = _get(v, 3, i)
+            values, square, q = _loads(u1, u2, u3, v1, v2, v3, c, 1.0)
+            _put(m, 0, i, values[0:3])
+            _put(n, 3, i, values[3:6])
             fine &= (square > LOW) & (square < HIGH)
             fine &= q < 1
         if not fine:
             for i in range(begin, end):
-                values, q = _careful_loads(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
-                _store_loads(values, i, m, n)
+                u1, u2, u3 = _get(u, 3, i)
+                v1, v2, v3 = _get(v, 3, i)
+                values, q = _careful_loads(u1, u2, u3, v1, v2, v3, c)
+                _put(m, 0, i, values[0:3])
+                _put(n, 3, i, values[3:6])
                 if not q < 1:
                     first, worst = (np.int64(i), q) if past == 0 else (first, worst)
                     past += 1
@@ -404,32 +472,28 @@ def stored_energy_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
     return values
 
 
-@at_point
-def _store_stored_energy(values: Any, i: int, w: Array) -> None:
-    """Stores what `_stored_energy` answers for a point."""
-    w[i] = values
-
-
 @over_points
-def _stored_energy_over(u: Array, v: Array, c: Values, w: Array) -> tuple[int, Any, float]:
+def _stored_energy_over(numbers: Any, u: Array, v: Array, w: Array) -> tuple[int, Any, float]:
     """`stored_energy` at every point; points past the limit, the first, its Q."""
-    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
+    c, points, past, first, worst = Values(*numbers), u.shape[-1], 0, np.int64(0), 0.0
+    if _shared((_span(u), _span(v)), (_span(w),)):
+        return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, square, q = _stored_energy(
-                u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c, 1.0
-            )
-            _store_stored_energy(values, i, w)
+            u1, u2, u3 = _get(u, 3, i)
+            v1, v2, v3 = _get(v, 3, i)
+            values, square, q = _stored_energy(u1, u2, u3, v1, v2, v3, c, 1.0)
+            _put(w, 0, i, (values,))
             fine &= (square > LOW) & (square < HIGH)
             fine &= q < 1
         if not fine:
             for i in range(begin, end):
-                values, q = _careful_stored_energy(
-                    u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c
-                )
-                _store_stored_energy(values, i, w)
+                u1, u2, u3 = _get(u, 3, i)
+                v1, v2, v3 = _get(v, 3, i)
+                values, q = _careful_stored_energy(u1, u2, u3, v1, v2, v3, c)
+                _put(w, 0, i, (values,))
                 if not q < 1:
                     first, worst = (np.int64(i), q) if past == 0 else (first, worst)
                     past += 1
@@ -481,33 +545,29 @@ def complementary_energy_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     return _careful_complementary_energy(m1, m2, m3, n1, n2, n3, c)
 
 
-@at_point
-def _store_complementary_energy(values: Any, i: int, w_star: Array) -> None:
-    """Stores what `_complementary_energy` answers for a point."""
-    w_star[i] = values
-
-
 @over_points
 def _complementary_energy_over(
-    m: Array, n: Array, c: Values, w_star: Array
+    numbers: Any, m: Array, n: Array, w_star: Array
 ) -> tuple[int, Any, float]:
     """`complementary_energy` at every point."""
-    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
+    c, points, past, first, worst = Values(*numbers), m.shape[-1], 0, np.int64(0), 0.0
+    if _shared((_span(m), _span(n)), (_span(w_star),)):
+        return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, square = _complementary_energy(
-                m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c, 1.0
-            )
-            _store_complementary_energy(values, i, w_star)
+            m1, m2, m3 = _get(m, 3, i)
+            n1, n2, n3 = _get(n, 3, i)
+            values, square = _complementary_energy(m1, m2, m3, n1, n2, n3, c, 1.0)
+            _put(w_star, 0, i, (values,))
             fine &= (square > LOW) & (square < HIGH)
         if not fine:
             for i in range(begin, end):
-                values = _careful_complementary_energy(
-                    m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c
-                )
-                _store_complementary_energy(values, i, w_star)
+                m1, m2, m3 = _get(m, 3, i)
+                n1, n2, n3 = _get(n, 3, i)
+                values = _careful_complementary_energy(m1, m2, m3, n1, n2, n3, c)
+                _put(w_star, 0, i, (values,))
     return past, first, worst
 
 
@@ -568,38 +628,29 @@ def stiffness_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
     )
 
 
-@at_point
-def _store_stiffness(values: Any, i: int, rows: Array) -> None:
-    """Stores what `_stiffness` answers for a point."""
-    (
-        rows[0 * BLOCK + i], rows[1 * BLOCK + i], rows[2 * BLOCK + i], rows[3 * BLOCK + i],
-        rows[4 * BLOCK + i], rows[5 * BLOCK + i], rows[6 * BLOCK + i], rows[7 * BLOCK + i],
-        rows[8 * BLOCK + i], rows[9 * BLOCK + i], rows[10 * BLOCK + i], rows[11 * BLOCK + i],
-        rows[12 * BLOCK + i], rows[13 * BLOCK + i], rows[14 * BLOCK + i], rows[15 * BLOCK + i],
-        rows[16 * BLOCK + i], rows[17 * BLOCK + i], rows[18 * BLOCK + i], rows[19 * BLOCK + i],
-        rows[20 * BLOCK + i],
-    ) = values
-
-
 @over_points
-def _stiffness_over(u: Array, v: Array, c: Values, stiff: Array) -> tuple[int, Any, float]:
+def _stiffness_over(numbers: Any, u: Array, v: Array, stiff: Array) -> tuple[int, Any, float]:
     """`stiffness` at every point; points past the limit, the first, its Q."""
-    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
-    rows = np.empty(21 * BLOCK)
+    c, points, past, first, worst = Values(*numbers), u.shape[-1], 0, np.int64(0), 0.0
+    if _shared((_span(u), _span(v)), (_span(stiff),)):
+        return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, q = _stiffness(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
-            _store_stiffness(values, i - begin, rows)
+            u1, u2, u3 = _get(u, 3, i)
+            v1, v2, v3 = _get(v, 3, i)
+            values, q = _stiffness(u1, u2, u3, v1, v2, v3, c)
+            _put(stiff, 0, i, _whole_6(values))
             fine &= q < 1
         if not fine:
             for i in range(begin, end):
-                _, q = _stiffness(u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c)
+                u1, u2, u3 = _get(u, 3, i)
+                v1, v2, v3 = _get(v, 3, i)
+                _, q = _stiffness(u1, u2, u3, v1, v2, v3, c)
                 if not q < 1:
                     first, worst = (np.int64(i), q) if past == 0 else (first, worst)
                     past += 1
-        _spread_6_6(rows, begin, end, stiff)
     return past, first, worst
 
 
@@ -685,49 +736,37 @@ def loads_and_stiffness_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
     return values[0:3], values[3:6], stiff
 
 
-@at_point
-def _store_loads_and_stiffness(values: Any, i: int, rows: Array) -> None:
-    """Stores what `_loads_and_stiffness` answers for a point."""
-    (
-        rows[21 * BLOCK + i], rows[22 * BLOCK + i], rows[23 * BLOCK + i], rows[24 * BLOCK + i],
-        rows[25 * BLOCK + i], rows[26 * BLOCK + i], rows[0 * BLOCK + i], rows[1 * BLOCK + i],
-        rows[2 * BLOCK + i], rows[3 * BLOCK + i], rows[4 * BLOCK + i], rows[5 * BLOCK + i],
-        rows[6 * BLOCK + i], rows[7 * BLOCK + i], rows[8 * BLOCK + i], rows[9 * BLOCK + i],
-        rows[10 * BLOCK + i], rows[11 * BLOCK + i], rows[12 * BLOCK + i], rows[13 * BLOCK + i],
-        rows[14 * BLOCK + i], rows[15 * BLOCK + i], rows[16 * BLOCK + i], rows[17 * BLOCK + i],
-        rows[18 * BLOCK + i], rows[19 * BLOCK + i], rows[20 * BLOCK + i],
-    ) = values
-
-
 @over_points
 def _loads_and_stiffness_over(
-    u: Array, v: Array, c: Values, m: Array, n: Array, stiff: Array
+    numbers: Any, u: Array, v: Array, m: Array, n: Array, stiff: Array
 ) -> tuple[int, Any, float]:
     """`loads_and_stiffness` at every point; points past the limit, the first, its Q."""
-    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
-    rows = np.empty(27 * BLOCK)
+    c, points, past, first, worst = Values(*numbers), u.shape[-1], 0, np.int64(0), 0.0
+    if _shared((_span(u), _span(v)), (_span(m), _span(n), _span(stiff))):
+        return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, square, q = _loads_and_stiffness(
-                u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c, 1.0
-            )
-            _store_loads_and_stiffness(values, i - begin, rows)
+            u1, u2, u3 = _get(u, 3, i)
+            v1, v2, v3 = _get(v, 3, i)
+            values, square, q = _loads_and_stiffness(u1, u2, u3, v1, v2, v3, c, 1.0)
+            _put(m, 0, i, values[0:3])
+            _put(n, 3, i, values[3:6])
+            _put(stiff, 6, i, _whole_6(values[6:27]))
             fine &= (square > LOW) & (square < HIGH)
             fine &= q < 1
         if not fine:
             for i in range(begin, end):
-                values, q = _careful_loads_and_stiffness(
-                    u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], c
-                )
-                _store_loads_and_stiffness(values, i - begin, rows)
+                u1, u2, u3 = _get(u, 3, i)
+                v1, v2, v3 = _get(v, 3, i)
+                values, q = _careful_loads_and_stiffness(u1, u2, u3, v1, v2, v3, c)
+                _put(m, 0, i, values[0:3])
+                _put(n, 3, i, values[3:6])
+                _put(stiff, 6, i, _whole_6(values[6:27]))
                 if not q < 1:
                     first, worst = (np.int64(i), q) if past == 0 else (first, worst)
                     past += 1
-        _move_3(rows, 21, begin, end, m)
-        _move_3(rows, 24, begin, end, n)
-        _spread_6_6(rows, begin, end, stiff)
     return past, first, worst
 
 
@@ -820,40 +859,27 @@ def compliance_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     )
 
 
-@at_point
-def _store_compliance(values: Any, i: int, rows: Array) -> None:
-    """Stores what `_compliance` answers for a point."""
-    (
-        rows[0 * BLOCK + i], rows[1 * BLOCK + i], rows[2 * BLOCK + i], rows[3 * BLOCK + i],
-        rows[4 * BLOCK + i], rows[5 * BLOCK + i], rows[6 * BLOCK + i], rows[7 * BLOCK + i],
-        rows[8 * BLOCK + i], rows[9 * BLOCK + i], rows[10 * BLOCK + i], rows[11 * BLOCK + i],
-        rows[12 * BLOCK + i], rows[13 * BLOCK + i], rows[14 * BLOCK + i], rows[15 * BLOCK + i],
-        rows[16 * BLOCK + i], rows[17 * BLOCK + i], rows[18 * BLOCK + i], rows[19 * BLOCK + i],
-        rows[20 * BLOCK + i],
-    ) = values
-
-
 @over_points
-def _compliance_over(m: Array, n: Array, c: Values, soft: Array) -> tuple[int, Any, float]:
+def _compliance_over(numbers: Any, m: Array, n: Array, soft: Array) -> tuple[int, Any, float]:
     """`compliance` at every point."""
-    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
-    rows = np.empty(21 * BLOCK)
+    c, points, past, first, worst = Values(*numbers), m.shape[-1], 0, np.int64(0), 0.0
+    if _shared((_span(m), _span(n)), (_span(soft),)):
+        return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, square = _compliance(
-                m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c, 1.0
-            )
-            _store_compliance(values, i - begin, rows)
+            m1, m2, m3 = _get(m, 3, i)
+            n1, n2, n3 = _get(n, 3, i)
+            values, square = _compliance(m1, m2, m3, n1, n2, n3, c, 1.0)
+            _put(soft, 0, i, _whole_6(values))
             fine &= (square > LOW) & (square < HIGH)
         if not fine:
             for i in range(begin, end):
-                values = _careful_compliance(
-                    m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c
-                )
-                _store_compliance(values, i - begin, rows)
-        _spread_6_6(rows, begin, end, soft)
+                m1, m2, m3 = _get(m, 3, i)
+                n1, n2, n3 = _get(n, 3, i)
+                values = _careful_compliance(m1, m2, m3, n1, n2, n3, c)
+                _put(soft, 0, i, _whole_6(values))
     return past, first, worst
 
 
@@ -910,33 +936,33 @@ def strains_and_gap_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     return values[0:3], values[3:6], values[6]
 
 
-@at_point
-def _store_strains_and_gap(values: Any, i: int, u: Array, v: Array, limit_gap: Array) -> None:
-    """Stores what `_strains_and_gap` answers for a point."""
-    u[0, i], u[1, i], u[2, i], v[0, i], v[1, i], v[2, i], limit_gap[i] = values
-
-
 @over_points
 def _strains_and_gap_over(
-    m: Array, n: Array, c: Values, u: Array, v: Array, limit_gap: Array
+    numbers: Any, m: Array, n: Array, u: Array, v: Array, limit_gap: Array
 ) -> tuple[int, Any, float]:
     """`strains_and_gap` at every point."""
-    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
+    c, points, past, first, worst = Values(*numbers), m.shape[-1], 0, np.int64(0), 0.0
+    if _shared((_span(m), _span(n)), (_span(u), _span(v), _span(limit_gap))):
+        return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, square = _strains_and_gap(
-                m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c, 1.0
-            )
-            _store_strains_and_gap(values, i, u, v, limit_gap)
+            m1, m2, m3 = _get(m, 3, i)
+            n1, n2, n3 = _get(n, 3, i)
+            values, square = _strains_and_gap(m1, m2, m3, n1, n2, n3, c, 1.0)
+            _put(u, 0, i, values[0:3])
+            _put(v, 3, i, values[3:6])
+            _put(limit_gap, 6, i, values[6:7])
             fine &= (square > LOW) & (square < HIGH)
         if not fine:
             for i in range(begin, end):
-                values = _careful_strains_and_gap(
-                    m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c
-                )
-                _store_strains_and_gap(values, i, u, v, limit_gap)
+                m1, m2, m3 = _get(m, 3, i)
+                n1, n2, n3 = _get(n, 3, i)
+                values = _careful_strains_and_gap(m1, m2, m3, n1, n2, n3, c)
+                _put(u, 0, i, values[0:3])
+                _put(v, 3, i, values[3:6])
+                _put(limit_gap, 6, i, values[6:7])
     return past, first, worst
 
 
@@ -1012,40 +1038,29 @@ def stiffness_at_loads_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
     )
 
 
-@at_point
-def _store_stiffness_at_loads(values: Any, i: int, rows: Array) -> None:
-    """Stores what `_stiffness_at_loads` answers for a point."""
-    (
-        rows[0 * BLOCK + i], rows[1 * BLOCK + i], rows[2 * BLOCK + i], rows[3 * BLOCK + i],
-        rows[4 * BLOCK + i], rows[5 * BLOCK + i], rows[6 * BLOCK + i], rows[7 * BLOCK + i],
-        rows[8 * BLOCK + i], rows[9 * BLOCK + i], rows[10 * BLOCK + i], rows[11 * BLOCK + i],
-        rows[12 * BLOCK + i], rows[13 * BLOCK + i], rows[14 * BLOCK + i], rows[15 * BLOCK + i],
-        rows[16 * BLOCK + i], rows[17 * BLOCK + i], rows[18 * BLOCK + i], rows[19 * BLOCK + i],
-        rows[20 * BLOCK + i],
-    ) = values
-
-
 @over_points
-def _stiffness_at_loads_over(m: Array, n: Array, c: Values, stiff: Array) -> tuple[int, Any, float]:
+def _stiffness_at_loads_over(
+    numbers: Any, m: Array, n: Array, stiff: Array
+) -> tuple[int, Any, float]:
     """`stiffness_at_loads` at every point."""
-    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
-    rows = np.empty(21 * BLOCK)
+    c, points, past, first, worst = Values(*numbers), m.shape[-1], 0, np.int64(0), 0.0
+    if _shared((_span(m), _span(n)), (_span(stiff),)):
+        return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
         fine = True
         for i in range(begin, end):
-            values, square = _stiffness_at_loads(
-                m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c, 1.0
-            )
-            _store_stiffness_at_loads(values, i - begin, rows)
+            m1, m2, m3 = _get(m, 3, i)
+            n1, n2, n3 = _get(n, 3, i)
+            values, square = _stiffness_at_loads(m1, m2, m3, n1, n2, n3, c, 1.0)
+            _put(stiff, 0, i, _whole_6(values))
             fine &= (square > LOW) & (square < HIGH)
         if not fine:
             for i in range(begin, end):
-                values = _careful_stiffness_at_loads(
-                    m[0, i], m[1, i], m[2, i], n[0, i], n[1, i], n[2, i], c
-                )
-                _store_stiffness_at_loads(values, i - begin, rows)
-        _spread_6_6(rows, begin, end, stiff)
+                m1, m2, m3 = _get(m, 3, i)
+                n1, n2, n3 = _get(n, 3, i)
+                values = _careful_stiffness_at_loads(m1, m2, m3, n1, n2, n3, c)
+                _put(stiff, 0, i, _whole_6(values))
     return past, first, worst
 
 
@@ -1104,41 +1119,49 @@ def _apply(
     c: Constants,
     names: Sequence[str],
     out: Any,
-) -> list[Array]:
+) -> Sequence[Array]:
     """Runs ``over`` on all points, straight into the results where that is safe."""
-    results = list(out) if isinstance(out, tuple) else [out]
-    arrays: list[Any] = list(inputs.values())
-    if not _plain([*inputs, *names], [*arrays, *results], len(arrays)):
+    given: Sequence[Any] = tuple(inputs.values())
+    shape = given[0].shape[-1:] if type(given[0]) is np.ndarray else ()
+    results: Sequence[Any] = out if type(out) is tuple else (out,)
+    if out is None:
+        results = [np.empty(HEADS[name] + shape) for name in names]
+    flat, straight = results, True
+    if not shape or not _plain((*inputs, *names), (*given, *results), shape):
         arrays, shape = _arguments(inputs)
         results = _results(names, shape, arrays[0].dtype, out)
         points = math.prod(shape)
         given = [
-            np.ascontiguousarray(array.reshape(*HEADS[name], points))
+            np.require(array.reshape(*HEADS[name], points), requirements=["C", "A"])
             for name, array in zip(inputs, arrays, strict=True)
         ]
-        flat = [np.empty((*HEADS[name], points)) for name in names]
-    else:
-        shape, given, flat = arrays[0].shape[-1:], arrays, results
-    past, first, q = over(*given, c.values, *flat)
+        straight = all(r.flags.carray and r.dtype == DOUBLE for r in results)
+        flat = [
+            r.reshape(*HEADS[name], points) if straight else np.empty((*HEADS[name], points))
+            for name, r in zip(names, results, strict=True)
+        ]
+    past, first, q = over(tuple(c.values), *given, *flat)
+    if past < 0:  # something shares memory
+        straight, flat = False, [np.empty_like(values) for values in flat]
+        past, first, q = over(tuple(c.values), *given, *flat)
     if past:
         index = tuple(map(int, np.unravel_index(first, shape)))
         where = f"{past} of {math.prod(shape)} do not, the first at index {index} with Q = {q!r}"
         raise ValueError(f"strains must satisfy Q(u, v) < 1: {where}")
-    if flat is not results:
+    if not straight:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
     return results
 
 
-def _plain(names: Sequence[str], arrays: Sequence[Any], inputs: int) -> bool:
-    """Whether the arrays are as the loops want them: rows of doubles of one length, none shared."""
-    if any(type(a) is not np.ndarray or a.dtype is not DOUBLE for a in arrays):
-        return False
-    points = arrays[0].shape[-1]
-    return all(
-        a.shape == (*HEADS[name], points) and a.flags.c_contiguous
-        for name, a in zip(names, arrays, strict=True)
-    ) and not any(np.may_share_memory(r, a) for r in arrays[inputs:] for a in arrays[:inputs])
+def _plain(names: Sequence[str], arrays: Sequence[Any], shape: tuple[int, ...]) -> bool:
+    """Whether the arrays are as the loops want them: rows of doubles, of one length."""
+    for name, a in zip(names, arrays, strict=True):
+        if type(a) is not np.ndarray or a.dtype is not DOUBLE or not a.flags.carray:
+            return False
+        if a.shape != HEADS[name] + shape:
+            return False
+    return True
 
 
 def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:

@@ -5,7 +5,10 @@
 
 from __future__ import annotations
 
+import importlib.util
 import math
+import sys
+from dataclasses import replace
 
 import mpmath
 import numpy as np
@@ -14,6 +17,7 @@ import pytest
 pytest.importorskip("numba", reason="numba is not installed")
 from numba import njit
 
+from rodproof.codegen import generate, scene
 from rodproof.generated.numba import full_rod, full_rod_p2
 from rodproof.generated.scenes import full_rod as rod
 from rodproof.generated.scenes import full_rod_p2 as rod_p2
@@ -156,3 +160,55 @@ def test_the_records_are_the_same() -> None:
     assert repr(c) == repr(twin)
     assert c.values[:7] == (0.7, 1.1, 0.9, 1.6, -0.4, 2.3, 3.3)
     assert all(getattr(twin, name) == getattr(c.values, name) for name in ("gap", "per_eta"))
+
+
+@pytest.mark.parametrize("module", [full_rod, full_rod_p2])
+def test_loops_work_on_vectors(module) -> None:
+    """A loop that the compiler did not turn into vectors takes a root of one number at a time."""
+    c = module.Constants(**GOOD, **({} if module is full_rod_p2 else {"p": 3.3}))
+    options = {"error_model": "numpy", "fastmath": {"contract"}}
+    fresh = njit(**options)(module._loads_and_stiffness_over.py_func)  # the kept one has no text
+    u, v, m, n = np.zeros((4, 3, 20))
+    fresh(tuple(c.values), u, v + [[0], [0], [0.9]], m, n, np.empty((6, 6, 20)))
+    (text,) = fresh.inspect_llvm().values()
+    assert "x double> @llvm.sqrt." in text
+
+
+def test_results_that_share_memory() -> None:
+    """Written as if one after the other: with an input, with each other, and in part."""
+    memory = np.random.default_rng(3).normal(size=(7, 50))
+    m, n = memory[:3].copy(), memory[3:6].copy()
+    u, v = full_rod_p2.strains(m, n, C2)
+    shifted = (memory[1:4], memory[4:7])
+    got = full_rod_p2.strains(memory[:3], memory[3:6], C2, out=shifted)
+    assert np.array_equal(got[0], u)
+    assert np.array_equal(got[1], v)
+    both = np.empty((3, 50))
+    full_rod_p2.strains(m, n, C2, out=(both, both))
+    assert np.array_equal(both, v)
+    both.flags.writeable = False
+    with pytest.raises(ValueError, match="read-only"):
+        full_rod_p2.strains(m, n, C2, out=(both, u))
+
+
+def test_components_last(tmp_path, monkeypatch) -> None:
+    own = replace(
+        scene.committed("full_rod_p2"), name="last", layout="last", functions=("strains", "stiffness")
+    )
+    path = tmp_path / "last.py"
+    path.write_text(generate.render(own, target="numba"))
+    spec = importlib.util.spec_from_file_location("last", path)
+    module = importlib.util.module_from_spec(spec)
+    monkeypatch.setitem(sys.modules, "last", module)
+    spec.loader.exec_module(module)
+    c = module.Constants(**GOOD)
+    for points in ((), (1,), (5, 60)):
+        m, n = np.random.default_rng(4).normal(size=(2, 3, *points))
+        u, v = rod_p2.strains(m, n, TWIN)
+        given = [np.ascontiguousarray(np.moveaxis(a, 0, -1)) for a in (m, n, u, v)]
+        for got, want in zip(module.strains(*given[:2], c), (u, v), strict=True):
+            np.testing.assert_allclose(np.moveaxis(got, -1, 0), want, rtol=1e-14)
+        stiff = module.stiffness(*given[2:], c)
+        np.testing.assert_allclose(
+            np.moveaxis(stiff, (-2, -1), (0, 1)), rod_p2.stiffness(u, v, TWIN), rtol=1e-13, atol=1e-14
+        )
