@@ -118,30 +118,26 @@ def squares_of(kernels: tuple[Kernel, ...], constants: dict[str, str]) -> dict[s
 
 def _square(quantity: str, plain: tuple[Kernel, ...], constants: dict[str, str]) -> Square:
     users = [k for k in plain if k.region and k.region.quantity == quantity]
-    needed = [_down_to(quantity, kernel) for kernel in users]
-    body = needed[0]
-    if any({*other} != {*body} for other in needed):
-        raise KernelError(f"the plain kernels disagree on {quantity}")
-    made = {a.name for a in body}
-    later = [
-        e
-        for kernel in users
-        for e in (
-            *(a.expr for a in kernel.body if a.name not in made),
-            *(o.expr for o in kernel.outputs),
-        )
-    ]
-    used = {s.name for e in later for s in e.free_symbols} & made
-    used |= {name for k in users if k.dyad for name in k.dyad.vector if name in made}
+    body, *others = (_down_to(quantity, kernel) for kernel in users)
+    vectors = {k.dyad.vector for k in users if k.dyad}
+    if any({*other} != {*body} for other in others) or len(vectors) > 1:
+        raise KernelError(f"the plain kernels disagree on {quantity} or on what goes with it")
+    used = set().union(*(_used_after(body, kernel) for kernel in users))
     results = (*(a.name for a in body if a.name in used and a.name != quantity), quantity)
-    vectors = [k.dyad.vector for k in users if k.dyad]
-    if any(vector != vectors[0] for vector in vectors):
-        raise KernelError(f"the plain kernels disagree on the vector beside {quantity}")
+    made = {a.name for a in body}
     work = [c for a in body for c in calls(a.name, a.expr, _printer(users[0], constants))]
     first = print_calls(work, {}, kept=results).rows
-    fixed = {n: first + k for vector in vectors[:1] for k, n in enumerate(vector) if n in made}
+    fixed = {n: first + k for vector in vectors for k, n in enumerate(vector) if n in made}
     printed = print_calls(work, {}, fixed=fixed, kept=results)
     return Square(quantity, users[0].inputs, body, results, printed, first)
+
+
+def _used_after(body: tuple[Assignment, ...], kernel: Kernel) -> set[str]:
+    """What the kernel takes from this beginning of its own."""
+    made = {a.name for a in body}
+    later = [a.expr for a in kernel.body if a.name not in made] + [o.expr for o in kernel.outputs]
+    used = {s.name for e in later for s in e.free_symbols}
+    return made & (used | set(kernel.dyad.vector if kernel.dyad else ()))
 
 
 def _down_to(quantity: str, kernel: Kernel) -> tuple[Assignment, ...]:
@@ -183,38 +179,62 @@ def plain_body(
 
     Beside another kernel it is told apart by its region, and by what it is called.
     """
-    region, dyad = kernel.region, kernel.dyad
-    packed = packed_size(kernel, text)
+    region, rows = kernel.region, rows_name(kernel.inputs)
     square = squares[region.quantity] if region else None
-    made = {a.name for a in square.body} if square else set[str]()
-    work = _arranged(kernel, _printer(kernel, constants), packed, made)
-    held = {n: r for n, r in square.printed.row.items() if n in last_reads(work)} if square else {}
-    vector = {n: place for n, place in vector_places(kernel).items() if n not in made}
-    places = {place_of(o, packed): place_of(o, packed) for o in kernel.outputs}
-    first = square.first if square else 0
-    fixed = {name: first + k for k, name in enumerate(dyad.vector)} if dyad else {}
-    opened = [place_of(o, packed) for o in kernel.outputs if dyad and o.array == dyad.array]
-    printed = print_calls(work, held, places=places | vector, fixed=fixed, opened=opened)
+    printed, held = _printed(kernel, square, _printer(kernel, constants), packed_size(kernel, text))
     count = max(printed.rows, square.printed.rows if square else 0)
-    rows = rows_name(kernel.inputs)
     own = " ".join(printed.lines)
     used = [name if re.search(rf"\b{name}\b", own) else "_" for name in kernel.inputs]
     comma = "," if len(kernel.inputs) == 1 else ""
     lines = [f"{', '.join(used)}{comma} = {rows}"] if {*used} != {"_"} else []
     lines += [f"work = _scratch({count}, {rows}[0])", "s = [*work]"]
-    lines += [f"{dyad.vector[0][0]} = work[{first}:{first + len(dyad.vector)}]"] if dyad else []
-    if square:
-        taken = [name if name in (*held, square.quantity) else "_" for name in square.results]
-        left = f"*_, {taken[-1]}" if len(taken) > 1 and {*taken[:-1]} == {"_"} else ", ".join(taken)
-        lines = ["k = c.plain", *lines, 'with np.errstate(over="ignore", invalid="ignore"):']
-        lines += [f"{INDENT}{left} = _{square.quantity}({rows}, c, s)"]
-        lines += [f"if not _inside({square.quantity}, k.within_{square.quantity}):"]
-        lines += [f"{INDENT}return False"]
-    lines += [*printed.lines, *(["return True"] if region else [])]
-    opening = heading(kernel, f"{kernel.name}_plain", text, "bool") if region else []
-    opening = opening or heading(kernel, kernel.name, text, "None")
-    words = f"`_{kernel.name}` where nothing is extreme; else False." if region else text.equation
-    return "\n".join([*opening, f'{INDENT}"""{words}"""', *(INDENT + line for line in lines)])
+    if kernel.dyad:
+        first, vector = square.first if square else 0, kernel.dyad.vector
+        lines += [f"{vector[0][0]} = work[{first}:{first + len(vector)}]"]
+    lines += _begun(square, rows, held) if square else []
+    lines = (
+        ["k = c.plain", *lines, *printed.lines, "return True"]
+        if region
+        else [*lines, *printed.lines]
+    )
+    return "\n".join([*_opening(kernel, text), *(INDENT + line for line in lines)])
+
+
+def _opening(kernel: Kernel, text: FunctionText) -> list[str]:
+    """The heading and what it says."""
+    if not kernel.region:
+        return [*heading(kernel, kernel.name, text, "None"), f'{INDENT}"""{text.equation}"""']
+    words = f"`_{kernel.name}` where nothing is extreme; else False."
+    return [*heading(kernel, f"{kernel.name}_plain", text, "bool"), f'{INDENT}"""{words}"""']
+
+
+def _begun(square: Square, rows: str, held: Mapping[str, int]) -> list[str]:
+    """The call of the shared beginning, and the test of the region."""
+    taken = [name if name in (*held, square.quantity) else "_" for name in square.results]
+    left = f"*_, {taken[-1]}" if len(taken) > 1 and {*taken[:-1]} == {"_"} else ", ".join(taken)
+    return [
+        'with np.errstate(over="ignore", invalid="ignore"):',
+        f"{INDENT}{left} = _{square.quantity}({rows}, c, s)",
+        f"if not _inside({square.quantity}, k.within_{square.quantity}):",
+        f"{INDENT}return False",
+    ]
+
+
+def _printed(
+    kernel: Kernel, square: Square | None, printer: Printer, packed: int
+) -> tuple[Printed, Mapping[str, int]]:
+    """What comes after the shared beginning, and the rows of what it takes from there."""
+    dyad = kernel.dyad
+    made = {a.name for a in square.body} if square else set[str]()
+    work = _arranged(kernel, printer, packed, made)
+    rows = square.printed.row if square else {}
+    held = {name: row for name, row in rows.items() if name in last_reads(work)}
+    places = {place_of(o, packed): place_of(o, packed) for o in kernel.outputs}
+    places |= {n: place for n, place in vector_places(kernel).items() if n not in made}
+    first = square.first if square else 0
+    fixed = {name: first + k for k, name in enumerate(dyad.vector)} if dyad else {}
+    opened = [place_of(o, packed) for o in kernel.outputs if dyad and o.array == dyad.array]
+    return print_calls(work, held, places=places, fixed=fixed, opened=opened), held
 
 
 def _arranged(kernel: Kernel, printer: Printer, packed: int, known: set[str]) -> list[Call]:
