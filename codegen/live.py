@@ -64,7 +64,7 @@ def groups(letters: str, components: tuple[int, ...]) -> tuple[Group, ...]:
 
 
 def substitution(scene: Scene) -> dict[sp.Expr, sp.Expr]:
-    """What is known when the scene is known: lost loads, lost strains, constants 0, 1 and p = 2."""
+    """What a scene says: lost loads and strains, iota = 0, p = 2, other constants fixed at one."""
     at = live(scene)
     known: dict[sp.Expr, sp.Expr] = {}
     for i in range(6):
@@ -76,6 +76,6 @@ def substitution(scene: Scene) -> dict[sp.Expr, sp.Expr]:
     for c in CONSTANT_SYMBOLS:
         if c == p and scene.fixed.get("p") == 2:
             known[p] = sp.Integer(2)
-        elif c != p and scene.fixed.get(c.name) in (0, 1):
-            known[c] = sp.Integer(int(scene.fixed[c.name]))
+        elif c not in (p, iota) and scene.fixed.get(c.name) == 1:
+            known[c] = sp.S.One
     return known

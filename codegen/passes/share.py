@@ -37,8 +37,14 @@ def hoist_reciprocals(kernel: Kernel) -> Kernel:
 
 
 def drop_aliases(kernel: Kernel) -> Kernel:
-    """An assignment that only renames another goes away."""
-    kept_names = {kernel.dyad.weight, *kernel.dyad.vector} if kernel.dyad else set()
+    """An assignment that only renames another goes away.
+
+    Not so where a step takes its input over, as where a modulus is one: the step may have been
+    given it at another scale.
+    """
+    kept_names = {kernel.dyad.weight, *kernel.dyad.vector} if kernel.dyad else set[str]()
+    given = {*kernel.inputs, *(a.name for a in kernel.body if not a.step)}
+    kept_names |= {a.name for a in kernel.body if a.step and str(a.expr) in given}
     aliases = {
         a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol and a.name not in kept_names
     }

@@ -51,9 +51,9 @@ def print_constants(
     """The record's text, with these properties at its end."""
     used, derived = used_constants(kernels), derived_constants(kernels)
     signed = "iota" in used
-    checks = template.COUPLING_CHECK if signed else ""
+    coupled = [name for name in _COUPLED if name in used] if signed else []
     hidden = "field(init=False, repr=False, compare=False)"
-    exact = [name for name in used if _in(name, derived) or (signed and name in _COUPLED)]
+    exact = [name for name in used if _in(name, derived) or name in coupled]
     values = [f'            "{name}": {Printer({}).text(e)},' for name, e in derived.items()]
     given = {*scene.fixed, *scene.defaults} & set(used)  # fields with a default may come early
     decorator = "frozen=True, kw_only=True" if given else "frozen=True"
@@ -70,7 +70,7 @@ def print_constants(
             if name in used
         ),
         exact=_exact(exact),
-        coupling=checks,
+        coupling=_coupling_check(coupled) if signed else "",
         derived=template.DERIVED.substitute(values="\n".join(values)) if derived else "",
     )
     text += template.PLAIN if any(kernel.plain for kernel in kernels) else ""
@@ -82,6 +82,18 @@ def print_constants(
 
 
 _COUPLED = ("beta", "eta", "iota")
+
+
+def _coupling_check(names: list[str]) -> str:
+    """The test of the rod's one inequality, in the constants that the record has.
+
+    A scene may have beta or eta fixed at one.
+    """
+    squares = [f"{name}**2" for name in names if name != "iota"] or ["1"]
+    return template.COUPLING_CHECK.substitute(
+        form=f"{' * '.join(squares)} - iota**2",
+        given=", ".join(f"{name}={{self.{name}}}" for name in names),
+    )
 
 
 def _in(name: str, derived: dict[str, sp.Expr]) -> bool:

@@ -66,13 +66,13 @@ RANGE_CHECK = Template("""\
             raise ValueError(f"Constants: $name must lie in [$low, $high], not {self.$name}")
 """)
 
-COUPLING_CHECK = """\
-        if not beta**2 * eta**2 - iota**2 > 0:
+COUPLING_CHECK = Template("""\
+        if not $form > 0:
             raise ValueError(
                 "Constants: beta^2 eta^2 - iota^2 > 0 fails: |iota| must be smaller than beta*eta,"
-                f" not beta={self.beta}, eta={self.eta}, iota={self.iota}"
+                f" not $given"
             )
-"""
+""")
 
 DERIVED = Template("""\
         derived = {

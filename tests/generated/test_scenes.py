@@ -289,3 +289,45 @@ def test_example_runs(name: str, root: Path, capsys: pytest.CaptureFixture) -> N
     assert len(path.read_text("utf-8").splitlines()) < 40
     runpy.run_path(str(path), run_name="__main__")
     assert capsys.readouterr().out
+
+
+ONES = (
+    {"alpha": 1.0, "beta": 1.0, "zeta": 1.0, "eta": 1.0, "gamma": 1.0, "p": 2.0},
+    {"alpha": 1.0, "beta": 1.0, "zeta": 1.0, "eta": 1.0},
+    {"eta": 1.0, "iota": 1.0},
+)
+
+
+@pytest.mark.parametrize("fixed", ONES, ids=lambda fixed: "-".join(fixed))
+def test_constants_fixed_at_one_are_numbers_like_others(fixed: dict[str, float]) -> None:
+    """Factors of one are left out; where squares underflow or overflow the scale stays right."""
+    own = Scene("ones", fixed=fixed)
+    module = module_of(own)
+    whole = {**GOOD, "beta": 1.5, **fixed}
+    fields = set(module.Constants.__dataclass_fields__) - set(fixed)
+    mine = module.Constants(**{name: whole[name] for name in fields & set(whole)})
+    rod = full_rod.Constants(**whole)
+    for function in own.functions:
+        _, (first, last) = inputs(own, function, (3,))
+        parts = np.concatenate([first, last])
+        small, large = (1e-160, 1e160) if function in OF_LOADS else (1e-160, 1.0)
+        parts[:, 1] *= small
+        parts[:, 2] *= large
+        parts[5, 1] = 0.0 if function in OF_LOADS else 1.0
+        with np.errstate(over="ignore", invalid="ignore"):  # the largest stiffness is infinite
+            got = getattr(module, function)(parts[:3], parts[3:], mine)
+            want = getattr(full_rod, function)(parts[:3], parts[3:], rod)
+            pairs = zip(got, want, strict=True) if isinstance(got, tuple) else [(got, want)]
+            for a, b in pairs:
+                largest = np.abs(b).max(axis=tuple(range(b.ndim - 1)), initial=0.0)
+                near = np.abs(a - b) <= 8 * np.finfo(float).eps * largest
+                assert ((a == b) | near).all(), function
+
+
+def test_the_coupling_is_checked_where_some_of_it_is_fixed_at_one() -> None:
+    module = module_of(Scene("ones", functions=("compliance",), fixed={"eta": 1.0, "iota": 1.0}))
+    with pytest.raises(ValueError, match=r"smaller than beta\*eta, not beta=0.5, iota=1.0"):
+        module.Constants(alpha=1, beta=0.5, zeta=1, gamma=1, p=3)
+    module = module_of(Scene("ones", functions=("strains",), fixed={"eta": 1.0, "beta": 1.0}))
+    with pytest.raises(ValueError, match=r"smaller than beta\*eta, not iota=1.5"):
+        module.Constants(alpha=1, iota=1.5, zeta=1, gamma=1, p=3)
