@@ -10,12 +10,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import replace
 
 from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.scene import Scene
+from rodproof.codegen.targets import numba_plain, numpy_template, scalar
 from rodproof.codegen.targets import numba_template as template
-from rodproof.codegen.targets import numpy_template, scalar
 from rodproof.codegen.targets.numpy_constants import (
     all_have_values,
     derived_constants,
@@ -24,6 +23,7 @@ from rodproof.codegen.targets.numpy_constants import (
     used_constants,
 )
 from rodproof.codegen.targets.numpy_header import header
+from rodproof.codegen.targets.numpy_plain import plain_kernels, plain_record
 from rodproof.codegen.targets.printer import wrapped
 from rodproof.codegen.texts import FunctionText, function_text
 
@@ -35,7 +35,6 @@ def print_module(
     scene: Scene, kernels: tuple[Kernel, ...], verdicts: Mapping[str, str] | None = None
 ) -> str:
     """The module's text; ``verdicts`` adds a verdict to each statement of the header."""
-    kernels = tuple(replace(kernel, plain=None) for kernel in kernels)  # one loop has no blocks
     words = {kernel.name: function_text(kernel, scene) for kernel in kernels}
     heads = {n: h for text in words.values() for n, h in (text.inputs | text.outputs).items()}
     first = scene.layout == "first"
@@ -91,7 +90,8 @@ def _imports(
     text: str,
 ) -> str:
     """Imports, names of types, and numbers."""
-    standard = ["from fractions import Fraction"] if derived_constants(kernels) else []
+    plain = plain_kernels(kernels)
+    standard = ["from fractions import Fraction"] if derived_constants(kernels) or plain else []
     standard += ["from functools import cached_property"]
     functions = ("frexp", "ldexp", "sqrt")
     used = [name for name in functions if re.search(rf"(?<![\w.]){name}\(", text)]
@@ -103,6 +103,7 @@ def _imports(
         standard_imports="\n".join(standard),
         functions=", ".join(used),
         tuples="\n".join(kinds[n] for n in several) or "$",
+        tiny="TINY = {DOUBLE: LEAST}" if plain else "$",
         streams=max(
             sum(math.prod(head) for head in text.outputs.values()) for text in words.values()
         ),
@@ -120,11 +121,17 @@ def _constants(scene: Scene, kernels: tuple[Kernel, ...]) -> str:
     fields += ["    work_share: tuple[Array, Array, float, float, float]"] if share else []
     values = [f"            self.{name}," for name in names]
     values += [template.WORK_SHARE_VALUES] if share else []
-    record, *default = print_constants(scene, kernels).rstrip("\n").split("\n\n\nROD =")
-    made = template.VALUES_PROPERTY.substitute(values="\n".join(values))
-    tail = f"\n\n\nROD ={default[0]}\n" if default else ""
-    listed = template.VALUES.substitute(fields="\n".join(fields)).strip("\n")
-    return f"{listed}\n\n\n{record}\n{made.rstrip()}\n{tail}"
+    properties = (
+        template.VALUES_PROPERTY.substitute(values="\n".join(values)).strip("\n"),
+        numba_plain.numbers(kernels),
+    )
+    parts = [
+        template.VALUES.substitute(fields="\n".join(fields)),
+        *numba_plain.ordinary(kernels),
+        *filter(None, [plain_record(kernels, [])]),
+        print_constants(scene, kernels, properties),
+    ]
+    return "\n\n\n".join(part.strip("\n") for part in parts)
 
 
 def _rows(words: Mapping[str, FunctionText], scene: Scene) -> list[str]:
@@ -175,13 +182,9 @@ def _compiled(
     quantity = kernel.limit.quantity if kernel.limit else ""
     nan = scene.at_limit == "nan"
     guards = {quantity: [f"{INDENT}{quantity} = {quantity} if {quantity} < 1 else math.nan"]}
-    body = scalar.body(
-        kernel,
-        scalar.NUMBA,
-        spelling,
-        guards if quantity and nan else {},
-        packed=scene.matrix == "packed",
-    )
+    packed = scene.matrix == "packed"
+    at_limit = guards if quantity and nan else {}
+    body = scalar.body(kernel, scalar.NUMBA, spelling, at_limit, packed=packed)
     watched = [name for name in (square, "" if nan else quantity) if name]
     arguments = ", ".join(f"{name}: float" for name in kernel.inputs)
     scale = ", scale: float" if square else ""
@@ -192,11 +195,11 @@ def _compiled(
         *body.lines,
     ]
     returned = [*scalar.returned(body.answer, ", ".join(watched))]
-    parts = ["\n".join([*lines, *returned])]
+    parts = ["\n".join([*lines, *returned]), *numba_plain.function(kernel, known, packed=packed)]
     if square:
         parts.append(_careful(kernel, watched))
     parts.append(_at_one(kernel, text, watched))
-    parts.append(_over(kernel, text, watched, scene))
+    parts.append(_over(kernel, text, watched, scene, kernels))
     return parts
 
 
@@ -262,7 +265,13 @@ def _row(size: int, j: int, k: int) -> int:
     return j * size - j * (j + 1) // 2 + k
 
 
-def _over(kernel: Kernel, text: FunctionText, watched: list[str], scene: Scene) -> str:
+def _over(
+    kernel: Kernel,
+    text: FunctionText,
+    watched: list[str],
+    scene: Scene,
+    kernels: tuple[Kernel, ...],
+) -> str:
     """The loop over points."""
     square = scalar.square(kernel, scalar.NUMBA)
     quantity = watched[-1] if watched and watched[-1] != square else ""
@@ -275,6 +284,7 @@ def _over(kernel: Kernel, text: FunctionText, watched: list[str], scene: Scene) 
     arguments = ", ".join(kernel.inputs)
     call = f"_{kernel.name}({arguments}, c{', 1.0' if square else ''})"
     stores = _stores(text)
+    plainly = numba_plain.first(kernel, reads, stores)
     quick = [*reads, f"{', '.join(['values', *watched])} = {call}", *stores]
     quick += ["fine &= (square > LOW) & (square < HIGH)"] if square else []
     quick += [f"fine &= {quantity} < 1"] if quantity else []
@@ -297,12 +307,20 @@ def _over(kernel: Kernel, text: FunctionText, watched: list[str], scene: Scene) 
         given=", ".join(f"{name}: Array" for name in text.inputs),
         taken=", ".join(f"{name}: Array" for name in text.outputs),
         points=f"{next(iter(text.inputs))}.shape[{-1 if scene.layout == 'first' else 0}]",
+        constants=numba_plain.taken(kernels, kernel, _count(kernels)),
+        plainly="".join(f"{line}\n" for line in _indented(plainly, 2)),
         spans=_spans(text),
         fine="fine = True" if again else "$",
         quick="\n".join(_indented(quick, 3)),
         careful=careful,
     )
     return whole.replace(f"{INDENT * 2}$\n", "")
+
+
+def _count(kernels: tuple[Kernel, ...]) -> int:
+    """How many entries the tuple of values has."""
+    names = {*used_constants(kernels), *derived_constants(kernels)}
+    return len(names) + needs_work_share(kernels)
 
 
 def _stores(text: FunctionText) -> list[str]:

@@ -29,6 +29,7 @@ LEAST = 2.0**-1022  # the smallest normal number
 LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
 STREAMS = $streams  # rows that a loop writes, at most
 DOUBLE = np.dtype(np.float64)
+$tiny
 EXP_40 = 4.248354255291589e-18  # exp(-40)
 LN2, LN2_REST = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # log 2, in two parts
 PER_LN2 = 1 / math.log(2)
@@ -116,6 +117,20 @@ $values
         )
 ''')
 
+NUMBERS = Template('''\
+    @cached_property
+    def numbers(self) -> tuple[Any, ...]:
+        """What loops take: plain tuples are handed over sooner."""
+$lines
+''')
+
+ORDINARY = Template('''\
+class Ordinary(NamedTuple):
+    """Constants for points where nothing is extreme, and the squares between which they hold."""
+
+$fields
+''')
+
 WORK_SHARE_VALUES = """\
             (
                 np.array(self.work_share[0][::-1]),
@@ -181,12 +196,13 @@ OVER = Template('''\
 @over_points
 def _${name}_over(numbers: Any, $given, $taken) -> tuple[int, Any, float]:
     """`$name` at every point$about."""
-    c, points, past, first, worst = Values(*numbers), $points, 0, np.int64(0), 0.0
+    $constants
+    points, past, first, worst = $points, 0, np.int64(0), 0.0
     if _shared($spans):
         return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
-        $fine
+$plainly        $fine
         for i in range(begin, end):
 $quick
 $careful    return past, first, worst
@@ -308,10 +324,10 @@ def _apply(
             r.reshape($flat) if straight else np.empty(($flat))
             for name, r in zip(names, results, strict=True)
         ]
-    past, first, q = over(tuple(c.values), *given, *flat)
+    past, first, q = over(c.numbers, *given, *flat)
     if past < 0:  # something shares memory
         straight, flat = False, [np.empty_like(values) for values in flat]
-        past, first, q = over(tuple(c.values), *given, *flat)
+        past, first, q = over(c.numbers, *given, *flat)
     if past:
         index = tuple(map(int, np.unravel_index(first, shape)))
         where = f"{past} of {math.prod(shape)} do not, the first at index {index} with Q = {q!r}"

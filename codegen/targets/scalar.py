@@ -308,6 +308,8 @@ class ScalarPrinter(Printer):
             first, second = sorted(expr.args, key=lambda a: (self.scalar(a), str(a)))
             sign = ">" if isinstance(expr, sp.Max) else "<"
             a, b = self.text(first), self.text(second)
+            if self.dialect.scaled:  # what is not a number stays that
+                return f"{b} if {b} {sign} {a} else {a}", LOOSE
             return f"{a} if {a} {sign} {b} else {b}", LOOSE
         if isinstance(expr, WorkShare):
             return f"_work_share_at({self.text(expr.args[0], LOOSE)}, c)", ATOM

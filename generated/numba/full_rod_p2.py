@@ -15,16 +15,16 @@ reading; wstar-gradient Section 3.1 proved.
 
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
-Operations a point: arithmetic, transcendental, energy shares, temporaries
-    strains                45    0    0   16
-    loads                  39    0    0   17
+Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
+    strains                34    0    0    5
+    loads                  33    0    0    8
     stored_energy          30    0    0   12
     complementary_energy   37    0    0   12
-    stiffness             107    0    0   27
-    loads_and_stiffness   118    0    0   30
+    stiffness              87    0    0   12
+    loads_and_stiffness    91    0    0   14
     compliance            159    0    0   39
-    strains_and_gap        49    0    0   17
-    stiffness_at_loads    108    0    0   23
+    strains_and_gap        36    0    0    5
+    stiffness_at_loads     84    0    0    9
 """
 
 from __future__ import annotations
@@ -53,6 +53,7 @@ LEAST = 2.0**-1022  # the smallest normal number
 LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
 STREAMS = 42  # rows that a loop writes, at most
 DOUBLE = np.dtype(np.float64)
+TINY = {DOUBLE: LEAST}
 EXP_40 = 4.248354255291589e-18  # exp(-40)
 LN2, LN2_REST = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # log 2, in two parts
 PER_LN2 = 1 / math.log(2)
@@ -92,6 +93,73 @@ class Values(NamedTuple):
     per_eta: float
     per_gap: float
     per_gamma: float
+
+
+class Ordinary(NamedTuple):
+    """Constants for points where nothing is extreme, and the squares between which they hold."""
+
+    bend_load: float
+    turn_load: float
+    shear_load: float
+    slack: float
+    n3_extends: float
+    m3_extends: float
+    bend_soft: float
+    turn_soft: float
+    shear_soft: float
+    untwist: float
+    bending: float
+    turning: float
+    shearing: float
+    per_turning: float
+    stretching: float
+    per_gamma: float
+    least_overload: float
+    most_overload: float
+    least_q: float
+    most_q: float
+
+
+class Plain:
+    """What the plain bodies take, each number rounded once, and the squares where they hold."""
+
+    def __init__(self, c: Constants) -> None:
+        alpha, beta, gamma, zeta, eta, iota = (
+            Fraction(v) for v in (c.alpha, c.beta, c.gamma, c.zeta, c.eta, c.iota)
+        )
+        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
+        self.turn_load = _rounded(1 / beta**2 / gamma**2)
+        self.shear_load = _rounded(1 / gamma**2 / zeta**2)
+        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
+        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
+        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
+        self.bend_soft = _rounded(1 / alpha**2 / gamma)
+        self.turn_soft = _rounded(1 / beta**2 / gamma)
+        self.shear_soft = _rounded(1 / gamma / zeta**2)
+        self.untwist = _rounded(iota / beta**2)
+        self.bending = _rounded(alpha**2)
+        self.turning = _rounded(beta**2)
+        self.shearing = _rounded(zeta**2)
+        self.per_turning = _rounded(1 / beta**2)
+        self.stretching = _rounded(eta**2)
+        self.per_gamma = _rounded(1 / gamma)
+        used = [v for v in (c.gamma, c.iota, *vars(self).values()) if v]
+        self.within_overload: dict[Any, tuple[float, float]] = {}
+        self.within_q: dict[Any, tuple[float, float]] = {}
+        self.room: dict[Any, tuple[float, float]] = {}
+        for kind, tiny in TINY.items():
+            span = tiny**-0.25
+            even = all(1 < abs(v) * span < span**2 for v in used)
+            self.room[kind] = (1 / span, span) if even else (1.0, 0.0)
+            overload = (1 / span, span)
+            self.within_overload[kind] = overload if even else (1.0, 0.0)
+            q = (1 / span, 0.9990234375)
+            self.within_q[kind] = q if even else (1.0, 0.0)
+
+
+def _rounded(ratio: Fraction) -> float:
+    """The nearest float; nan far from the ordinary."""
+    return float(ratio) if not ratio or 2**-900 < abs(ratio) < 2**900 else math.nan
 
 
 @dataclass(frozen=True)
@@ -153,6 +221,11 @@ class Constants:
             object.__setattr__(self, name, float(ratio))
 
     @cached_property
+    def plain(self) -> Plain:
+        """What the plain bodies take."""
+        return Plain(self)
+
+    @cached_property
     def values(self) -> Values:
         """What compiled code takes."""
         return Values(
@@ -172,6 +245,17 @@ class Constants:
             self.per_eta,
             self.per_gap,
             self.per_gamma,
+        )
+
+    @cached_property
+    def numbers(self) -> tuple[Any, ...]:
+        """What loops take: plain tuples are handed over sooner."""
+        k = self.plain
+        return (
+            *self.values, k.bend_load, k.turn_load, k.shear_load, k.slack, k.n3_extends,
+            k.m3_extends, k.bend_soft, k.turn_soft, k.shear_soft, k.untwist, k.bending, k.turning,
+            k.shearing, k.per_turning, k.stretching, k.per_gamma, *k.within_overload[DOUBLE],
+            *k.within_q[DOUBLE],
         )
 
 
@@ -281,8 +365,8 @@ def _strains(
     )
     size = sqrt(square)
     y = size / scale
-    larger = y if y > c.gamma else c.gamma
-    ratio = (y if y < c.gamma else c.gamma) / larger
+    larger = c.gamma if c.gamma > y else y
+    ratio = (c.gamma if c.gamma < y else y) / larger
     power = ratio * ratio
     factor = 1 / larger / sqrt(power + 1)
     reach = factor / scale
@@ -294,6 +378,27 @@ def _strains(
             dilatation * extend + 1,
         ),
         square,
+    )
+
+
+@at_point
+def _strains_plain(
+    m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, k: Ordinary
+) -> Any:
+    """`_strains` where nothing is extreme."""
+    extension = k.n3_extends * n3 - k.m3_extends * m3
+    overload = (
+        k.bend_load * (m1 * m1 + m2 * m2) + k.slack * extension * extension + k.turn_load * m3 * m3
+        + k.shear_load * (n1 * n1 + n2 * n2)
+    )
+    root = 1 / sqrt(overload + 1)
+    bend, shear = k.bend_soft * root, k.shear_soft * root
+    return (
+        (
+            bend * m1, bend * m2, root * (k.turn_soft * m3 - k.untwist * extension), n1 * shear,
+            n2 * shear, extension * root + 1,
+        ),
+        overload,
     )
 
 
@@ -320,11 +425,23 @@ def strains_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
 @over_points
 def _strains_over(numbers: Any, m: Array, n: Array, u: Array, v: Array) -> tuple[int, Any, float]:
     """`strains` at every point."""
-    c, points, past, first, worst = Values(*numbers), m.shape[-1], 0, np.int64(0), 0.0
+    c = Values(*numbers[:16])
+    k = Ordinary(*numbers[16:])
+    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
     if _shared((_span(m), _span(n)), (_span(u), _span(v))):
         return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            m1, m2, m3 = _get(m, 3, i)
+            n1, n2, n3 = _get(n, 3, i)
+            values, overload = _strains_plain(m1, m2, m3, n1, n2, n3, c, k)
+            _put(u, 0, i, values[0:3])
+            _put(v, 3, i, values[3:6])
+            fine &= (overload > k.least_overload) & (overload < k.most_overload)
+        if fine:
+            continue
         fine = True
         for i in range(begin, end):
             m1, m2, m3 = _get(m, 3, i)
@@ -374,6 +491,30 @@ def _loads(
     )
 
 
+@at_point
+def _loads_plain(
+    u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values, k: Ordinary
+) -> Any:
+    """`_loads` where nothing is extreme."""
+    stretch = v3 - 1
+    torque = c.iota * stretch + k.turning * u3
+    slack_pull = k.slack * stretch
+    q = (
+        k.bending * (u1 * u1 + u2 * u2) + k.per_turning * torque * torque
+        + k.shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
+    )
+    left = 1 - q
+    hard = c.gamma / sqrt(left)
+    bend, shear = k.bending * hard, k.shearing * hard
+    return (
+        (
+            bend * u1, bend * u2, hard * torque, shear * v1, shear * v2,
+            hard * (slack_pull + k.untwist * torque),
+        ),
+        q,
+    )
+
+
 @over_points
 def _careful_loads(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
     """`loads` where squares may leave their range, its inputs scaled."""
@@ -399,11 +540,23 @@ def loads_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
 @over_points
 def _loads_over(numbers: Any, u: Array, v: Array, m: Array, n: Array) -> tuple[int, Any, float]:
     """`loads` at every point; points past the limit, the first, its Q."""
-    c, points, past, first, worst = Values(*numbers), u.shape[-1], 0, np.int64(0), 0.0
+    c = Values(*numbers[:16])
+    k = Ordinary(*numbers[16:])
+    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
     if _shared((_span(u), _span(v)), (_span(m), _span(n))):
         return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            u1, u2, u3 = _get(u, 3, i)
+            v1, v2, v3 = _get(v, 3, i)
+            values, q = _loads_plain(u1, u2, u3, v1, v2, v3, c, k)
+            _put(m, 0, i, values[0:3])
+            _put(n, 3, i, values[3:6])
+            fine &= (q > k.least_q) & (q < k.most_q)
+        if fine:
+            continue
         fine = True
         for i in range(begin, end):
             u1, u2, u3 = _get(u, 3, i)
@@ -475,7 +628,8 @@ def stored_energy_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
 @over_points
 def _stored_energy_over(numbers: Any, u: Array, v: Array, w: Array) -> tuple[int, Any, float]:
     """`stored_energy` at every point; points past the limit, the first, its Q."""
-    c, points, past, first, worst = Values(*numbers), u.shape[-1], 0, np.int64(0), 0.0
+    c = Values(*numbers[:16])
+    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
     if _shared((_span(u), _span(v)), (_span(w),)):
         return -1, first, worst
     for start in range(0, points, BLOCK):
@@ -516,8 +670,8 @@ def _complementary_energy(
     )
     size = sqrt(square)
     y = size / scale
-    larger = y if y > c.gamma else c.gamma
-    ratio = (y if y < c.gamma else c.gamma) / larger
+    larger = c.gamma if c.gamma > y else y
+    ratio = (c.gamma if c.gamma < y else y) / larger
     power = ratio * ratio
     factor = 1 / larger / sqrt(power + 1)
     strain = factor * y
@@ -550,7 +704,8 @@ def _complementary_energy_over(
     numbers: Any, m: Array, n: Array, w_star: Array
 ) -> tuple[int, Any, float]:
     """`complementary_energy` at every point."""
-    c, points, past, first, worst = Values(*numbers), m.shape[-1], 0, np.int64(0), 0.0
+    c = Values(*numbers[:16])
+    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
     if _shared((_span(m), _span(n)), (_span(w_star),)):
         return -1, first, worst
     for start in range(0, points, BLOCK):
@@ -587,7 +742,7 @@ def _stiffness(u1: float, u2: float, u3: float, v1: float, v2: float, v3: float,
     root = sqrt(left)
     factor, growth = c.gamma / root, q / left
     steep = factor * growth
-    x = sqrt(q if q > LEAST else LEAST)
+    x = sqrt(LEAST if LEAST > q else q)
     per_x = 1 / x
     bend_per_x, turn_per_x, shear_per_x = c.alpha * per_x, c.beta * per_x, c.zeta * per_x
     extend_per_x, t1, t2 = c.eta * per_x, bend_per_x * kappa_1, bend_per_x * kappa_2
@@ -603,6 +758,43 @@ def _stiffness(u1: float, u2: float, u3: float, v1: float, v2: float, v3: float,
     k44, k45, k46 = c.zeta * c.zeta * factor + steep_4 * t4, steep_4 * t5, steep_4 * t6
     k55, k56 = c.zeta * c.zeta * factor + steep_5 * t5, steep_5 * t6
     k66 = c.eta * c.eta * factor + steep_6 * t6
+    return (
+        (
+            k11, k12, k13, k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35, k36, k44, k45,
+            k46, k55, k56, k66,
+        ),
+        q,
+    )
+
+
+@at_point
+def _stiffness_plain(
+    u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values, k: Ordinary
+) -> Any:
+    """`_stiffness` where nothing is extreme."""
+    stretch = v3 - 1
+    torque = c.iota * stretch + k.turning * u3
+    slack_pull, r1, r2, r4 = k.slack * stretch, k.bending * u1, k.bending * u2, k.shearing * v1
+    r5 = k.shearing * v2
+    r6 = slack_pull + k.untwist * torque
+    q = (
+        k.bending * (u1 * u1 + u2 * u2) + k.per_turning * torque * torque
+        + k.shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
+    )
+    left = 1 - q
+    hard = c.gamma / sqrt(left)
+    steep = hard / left
+    steep_1, steep_2, steep_3, steep_4 = r1 * steep, r2 * steep, steep * torque, r4 * steep
+    steep_5, steep_6 = r5 * steep, r6 * steep
+    k11, k12, k13 = k.bending * hard + r1 * steep_1, r2 * steep_1, steep_1 * torque
+    k14, k15, k16 = r4 * steep_1, r5 * steep_1, r6 * steep_1
+    k22, k23, k24 = k.bending * hard + r2 * steep_2, steep_2 * torque, r4 * steep_2
+    k25, k26 = r5 * steep_2, r6 * steep_2
+    k33, k34, k35 = k.turning * hard + steep_3 * torque, r4 * steep_3, r5 * steep_3
+    k36 = c.iota * hard + r6 * steep_3
+    k44, k45, k46 = k.shearing * hard + r4 * steep_4, r5 * steep_4, r6 * steep_4
+    k55, k56 = k.shearing * hard + r5 * steep_5, r6 * steep_5
+    k66 = k.stretching * hard + r6 * steep_6
     return (
         (
             k11, k12, k13, k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35, k36, k44, k45,
@@ -631,11 +823,22 @@ def stiffness_at(u1, u2, u3, v1, v2, v3, c: Values) -> Any:
 @over_points
 def _stiffness_over(numbers: Any, u: Array, v: Array, stiff: Array) -> tuple[int, Any, float]:
     """`stiffness` at every point; points past the limit, the first, its Q."""
-    c, points, past, first, worst = Values(*numbers), u.shape[-1], 0, np.int64(0), 0.0
+    c = Values(*numbers[:16])
+    k = Ordinary(*numbers[16:])
+    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
     if _shared((_span(u), _span(v)), (_span(stiff),)):
         return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            u1, u2, u3 = _get(u, 3, i)
+            v1, v2, v3 = _get(v, 3, i)
+            values, q = _stiffness_plain(u1, u2, u3, v1, v2, v3, c, k)
+            _put(stiff, 0, i, _whole_6(values))
+            fine &= (q > k.least_q) & (q < k.most_q)
+        if fine:
+            continue
         fine = True
         for i in range(begin, end):
             u1, u2, u3 = _get(u, 3, i)
@@ -676,7 +879,7 @@ def _loads_and_stiffness(
     left = 1 - q
     root = sqrt(left)
     factor, growth = c.gamma / root, q / left
-    per_size = 1 / (raw_1 if raw_1 > size else size)
+    per_size = 1 / (size if size > raw_1 else raw_1)
     bend_per_size, turn_per_size = c.alpha * per_size, c.beta * per_size
     shear_per_size, extend_per_size, steep = c.zeta * per_size, c.eta * per_size, factor * growth
     secant = factor / scale
@@ -701,6 +904,44 @@ def _loads_and_stiffness(
             k36, k44, k45, k46, k55, k56, k66,
         ),
         square, q,
+    )
+
+
+@at_point
+def _loads_and_stiffness_plain(
+    u1: float, u2: float, u3: float, v1: float, v2: float, v3: float, c: Values, k: Ordinary
+) -> Any:
+    """`_loads_and_stiffness` where nothing is extreme."""
+    stretch = v3 - 1
+    torque = c.iota * stretch + k.turning * u3
+    slack_pull, r1, r2, r4 = k.slack * stretch, k.bending * u1, k.bending * u2, k.shearing * v1
+    r5 = k.shearing * v2
+    r6 = slack_pull + k.untwist * torque
+    q = (
+        k.bending * (u1 * u1 + u2 * u2) + k.per_turning * torque * torque
+        + k.shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
+    )
+    left = 1 - q
+    hard = c.gamma / sqrt(left)
+    steep = hard / left
+    bend, shear, steep_1, steep_2 = k.bending * hard, k.shearing * hard, r1 * steep, r2 * steep
+    steep_3, steep_4, steep_5, steep_6 = steep * torque, r4 * steep, r5 * steep, r6 * steep
+    k11, k12, k13, k14 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque, r4 * steep_1
+    k15, k16 = r5 * steep_1, r6 * steep_1
+    k22, k23, k24, k25 = bend + r2 * steep_2, steep_2 * torque, r4 * steep_2, r5 * steep_2
+    k26 = r6 * steep_2
+    k33, k34, k35 = k.turning * hard + steep_3 * torque, r4 * steep_3, r5 * steep_3
+    k36 = c.iota * hard + r6 * steep_3
+    k44, k45, k46 = r4 * steep_4 + shear, r5 * steep_4, r6 * steep_4
+    k55, k56 = r5 * steep_5 + shear, r6 * steep_5
+    k66 = k.stretching * hard + r6 * steep_6
+    return (
+        (
+            bend * u1, bend * u2, hard * torque, shear * v1, shear * v2, hard * r6, k11, k12, k13,
+            k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35, k36, k44, k45, k46, k55, k56,
+            k66,
+        ),
+        q,
     )
 
 
@@ -741,11 +982,24 @@ def _loads_and_stiffness_over(
     numbers: Any, u: Array, v: Array, m: Array, n: Array, stiff: Array
 ) -> tuple[int, Any, float]:
     """`loads_and_stiffness` at every point; points past the limit, the first, its Q."""
-    c, points, past, first, worst = Values(*numbers), u.shape[-1], 0, np.int64(0), 0.0
+    c = Values(*numbers[:16])
+    k = Ordinary(*numbers[16:])
+    points, past, first, worst = u.shape[-1], 0, np.int64(0), 0.0
     if _shared((_span(u), _span(v)), (_span(m), _span(n), _span(stiff))):
         return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            u1, u2, u3 = _get(u, 3, i)
+            v1, v2, v3 = _get(v, 3, i)
+            values, q = _loads_and_stiffness_plain(u1, u2, u3, v1, v2, v3, c, k)
+            _put(m, 0, i, values[0:3])
+            _put(n, 3, i, values[3:6])
+            _put(stiff, 6, i, _whole_6(values[6:27]))
+            fine &= (q > k.least_q) & (q < k.most_q)
+        if fine:
+            continue
         fine = True
         for i in range(begin, end):
             u1, u2, u3 = _get(u, 3, i)
@@ -791,11 +1045,11 @@ def _compliance(
     )
     size = sqrt(square)
     y = size / scale
-    larger = y if y > c.gamma else c.gamma
-    ratio = (y if y < c.gamma else c.gamma) / larger
+    larger = c.gamma if c.gamma > y else y
+    ratio = (c.gamma if c.gamma < y else y) / larger
     power = ratio * ratio
     factor, remain = 1 / larger / sqrt(power + 1), (1.0 if y <= c.gamma else power) / (power + 1)
-    per_size = 1 / (size if size > LEAST else LEAST)
+    per_size = 1 / (LEAST if LEAST > size else size)
     a1, share = per_size * (mu_1 + LEAST), (power if y <= c.gamma else 1.0) / (power + 1)
     aa1 = a1 * a1
     a2, a3, b1, b2 = mu_2 * per_size, mu_3 * per_size, nu_1 * per_size, nu_2 * per_size
@@ -862,7 +1116,8 @@ def compliance_at(m1, m2, m3, n1, n2, n3, c: Values) -> Any:
 @over_points
 def _compliance_over(numbers: Any, m: Array, n: Array, soft: Array) -> tuple[int, Any, float]:
     """`compliance` at every point."""
-    c, points, past, first, worst = Values(*numbers), m.shape[-1], 0, np.int64(0), 0.0
+    c = Values(*numbers[:16])
+    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
     if _shared((_span(m), _span(n)), (_span(soft),)):
         return -1, first, worst
     for start in range(0, points, BLOCK):
@@ -900,8 +1155,8 @@ def _strains_and_gap(
     )
     size = sqrt(square)
     y = size / scale
-    larger = y if y > c.gamma else c.gamma
-    ratio = (y if y < c.gamma else c.gamma) / larger
+    larger = c.gamma if c.gamma > y else y
+    ratio = (c.gamma if c.gamma < y else y) / larger
     power = ratio * ratio
     factor, remain = 1 / larger / sqrt(power + 1), (1.0 if y <= c.gamma else power) / (power + 1)
     reach = factor / scale
@@ -913,6 +1168,27 @@ def _strains_and_gap(
             dilatation * extend + 1, remain,
         ),
         square,
+    )
+
+
+@at_point
+def _strains_and_gap_plain(
+    m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, k: Ordinary
+) -> Any:
+    """`_strains_and_gap` where nothing is extreme."""
+    extension = k.n3_extends * n3 - k.m3_extends * m3
+    overload = (
+        k.bend_load * (m1 * m1 + m2 * m2) + k.slack * extension * extension + k.turn_load * m3 * m3
+        + k.shear_load * (n1 * n1 + n2 * n2)
+    )
+    root = 1 / sqrt(overload + 1)
+    bend, shear = k.bend_soft * root, k.shear_soft * root
+    return (
+        (
+            bend * m1, bend * m2, root * (k.turn_soft * m3 - k.untwist * extension), n1 * shear,
+            n2 * shear, extension * root + 1, 1 / (overload + 1),
+        ),
+        overload,
     )
 
 
@@ -941,11 +1217,24 @@ def _strains_and_gap_over(
     numbers: Any, m: Array, n: Array, u: Array, v: Array, limit_gap: Array
 ) -> tuple[int, Any, float]:
     """`strains_and_gap` at every point."""
-    c, points, past, first, worst = Values(*numbers), m.shape[-1], 0, np.int64(0), 0.0
+    c = Values(*numbers[:16])
+    k = Ordinary(*numbers[16:])
+    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
     if _shared((_span(m), _span(n)), (_span(u), _span(v), _span(limit_gap))):
         return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            m1, m2, m3 = _get(m, 3, i)
+            n1, n2, n3 = _get(n, 3, i)
+            values, overload = _strains_and_gap_plain(m1, m2, m3, n1, n2, n3, c, k)
+            _put(u, 0, i, values[0:3])
+            _put(v, 3, i, values[3:6])
+            _put(limit_gap, 6, i, values[6:7])
+            fine &= (overload > k.least_overload) & (overload < k.most_overload)
+        if fine:
+            continue
         fine = True
         for i in range(begin, end):
             m1, m2, m3 = _get(m, 3, i)
@@ -983,11 +1272,11 @@ def _stiffness_at_loads(
     size, raw_2 = sqrt(square), sqrt(LEAST)
     y = size / scale
     rise = c.per_gamma * y
-    raw_1 = 1 / (rise if rise > LEAST else LEAST)
-    half = raw_1 if raw_1 < rise else rise
+    raw_1 = 1 / (LEAST if LEAST > rise else rise)
+    half = rise if rise < raw_1 else raw_1
     power = half * half
-    factor = sqrt(power + 1) * (y if y > c.gamma else c.gamma)
-    rise_per_size = rise / (raw_2 if raw_2 > size else size)
+    factor = sqrt(power + 1) * (c.gamma if c.gamma > y else y)
+    rise_per_size = rise / (size if size > raw_2 else raw_2)
     bend_rise, turn_rise = c.alpha * rise_per_size, c.beta * rise_per_size
     shear_rise, extend_rise, h1 = c.zeta * rise_per_size, c.eta * rise_per_size, bend_rise * mu_1
     h2, h3, h4, h5 = bend_rise * mu_2, mu_3 * turn_rise, nu_1 * shear_rise, nu_2 * shear_rise
@@ -1008,6 +1297,39 @@ def _stiffness_at_loads(
             k46, k55, k56, k66,
         ),
         square,
+    )
+
+
+@at_point
+def _stiffness_at_loads_plain(
+    m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, k: Ordinary
+) -> Any:
+    """`_stiffness_at_loads` where nothing is extreme."""
+    extension = k.n3_extends * n3 - k.m3_extends * m3
+    overload = (
+        k.bend_load * (m1 * m1 + m2 * m2) + k.slack * extension * extension + k.turn_load * m3 * m3
+        + k.shear_load * (n1 * n1 + n2 * n2)
+    )
+    hard = c.gamma * sqrt(overload + 1)
+    lift = hard
+    h1, h2, h3, h4 = k.per_gamma * m1, k.per_gamma * m2, k.per_gamma * m3, k.per_gamma * n1
+    h5, h6, lift_1, lift_2 = k.per_gamma * n2, k.per_gamma * n3, h1 * lift, h2 * lift
+    lift_3, lift_4, lift_5, lift_6 = h3 * lift, h4 * lift, h5 * lift, h6 * lift
+    k11, k12, k13, k14 = k.bending * hard + h1 * lift_1, h2 * lift_1, h3 * lift_1, h4 * lift_1
+    k15, k16 = h5 * lift_1, h6 * lift_1
+    k22, k23, k24, k25 = k.bending * hard + h2 * lift_2, h3 * lift_2, h4 * lift_2, h5 * lift_2
+    k26 = h6 * lift_2
+    k33, k34, k35 = h3 * lift_3 + k.turning * hard, h4 * lift_3, h5 * lift_3
+    k36 = h6 * lift_3 + c.iota * hard
+    k44, k45, k46 = h4 * lift_4 + k.shearing * hard, h5 * lift_4, h6 * lift_4
+    k55, k56 = h5 * lift_5 + k.shearing * hard, h6 * lift_5
+    k66 = h6 * lift_6 + k.stretching * hard
+    return (
+        (
+            k11, k12, k13, k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35, k36, k44, k45,
+            k46, k55, k56, k66,
+        ),
+        overload,
     )
 
 
@@ -1043,11 +1365,22 @@ def _stiffness_at_loads_over(
     numbers: Any, m: Array, n: Array, stiff: Array
 ) -> tuple[int, Any, float]:
     """`stiffness_at_loads` at every point."""
-    c, points, past, first, worst = Values(*numbers), m.shape[-1], 0, np.int64(0), 0.0
+    c = Values(*numbers[:16])
+    k = Ordinary(*numbers[16:])
+    points, past, first, worst = m.shape[-1], 0, np.int64(0), 0.0
     if _shared((_span(m), _span(n)), (_span(stiff),)):
         return -1, first, worst
     for start in range(0, points, BLOCK):
         begin, end = np.uint64(start), np.uint64(min(start + BLOCK, points))
+        fine = True
+        for i in range(begin, end):
+            m1, m2, m3 = _get(m, 3, i)
+            n1, n2, n3 = _get(n, 3, i)
+            values, overload = _stiffness_at_loads_plain(m1, m2, m3, n1, n2, n3, c, k)
+            _put(stiff, 0, i, _whole_6(values))
+            fine &= (overload > k.least_overload) & (overload < k.most_overload)
+        if fine:
+            continue
         fine = True
         for i in range(begin, end):
             m1, m2, m3 = _get(m, 3, i)
@@ -1140,10 +1473,10 @@ def _apply(
             r.reshape(*HEADS[name], points) if straight else np.empty((*HEADS[name], points))
             for name, r in zip(names, results, strict=True)
         ]
-    past, first, q = over(tuple(c.values), *given, *flat)
+    past, first, q = over(c.numbers, *given, *flat)
     if past < 0:  # something shares memory
         straight, flat = False, [np.empty_like(values) for values in flat]
-        past, first, q = over(tuple(c.values), *given, *flat)
+        past, first, q = over(c.numbers, *given, *flat)
     if past:
         index = tuple(map(int, np.unravel_index(first, shape)))
         where = f"{past} of {math.prod(shape)} do not, the first at index {index} with Q = {q!r}"
