@@ -11,7 +11,7 @@ from rodproof.codegen.count import Cost, cost
 from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.scene import CONSTANT_NAMES, Scene
 from rodproof.codegen.targets.numpy_constants import used_constants
-from rodproof.codegen.targets.numpy_header import scope
+from rodproof.codegen.targets.numpy_header import ranges, scope
 from rodproof.codegen.texts import function_text, shape_text
 
 if TYPE_CHECKING:
@@ -35,20 +35,25 @@ class Account:
     scene: str
     summary: str
     restrictions: tuple[str, ...]
+    guards: tuple[str, ...]
     constants: tuple[str, ...]
     constants_left_out: tuple[str, ...]
     lines: tuple[Line, ...]
 
 
-def account(scene: Scene) -> Account:
-    """The account of a scene beside the full rod with the same functions."""
-    kernels = generate.kernels(scene)
+def account(scene: Scene, done: tuple[Kernel, ...] | None = None) -> Account:
+    """The account of a scene beside the full rod with the same functions.
+
+    ``done`` are the scene's kernels, where they are known already.
+    """
+    kernels = done or generate.kernels(scene)
     whole = {k.name: k for k in generate.kernels(Scene("full", functions=scene.functions))}
     used = used_constants(kernels)
     return Account(
         scene.name,
         scene.summary,
         tuple(scope(scene)) or ("Nothing is left out.",),
+        tuple(ranges(scene, kernels)),
         tuple(_constant(name, scene) for name in used),
         tuple(name for name in CONSTANT_NAMES if name not in used),
         tuple(Line(k.name, _call(k, scene), cost(k), cost(whole[k.name])) for k in kernels),
@@ -78,13 +83,12 @@ COLUMNS = (
     "transcendental",
     "energy shares",
     "temporaries",
-    "ns a point",
 )
+TIMED = (*COLUMNS, "ns a point")
 
 
-def table(found: Account, times: Sequence[Beside]) -> list[tuple[str, ...]]:
-    """A row a function; counts and time of one point as ``own of the full rod's``."""
-    timed = {time.function: f"{time.own:.3g} of {time.full:.3g}" for time in times}
+def table(found: Account) -> list[tuple[str, ...]]:
+    """A row a function, its counts as ``own of the full rod's``: under `COLUMNS`."""
     return [
         (
             line.function,
@@ -98,10 +102,15 @@ def table(found: Account, times: Sequence[Beside]) -> list[tuple[str, ...]]:
                     (line.own.temporaries, line.full.temporaries),
                 )
             ),
-            timed[line.function],
         )
         for line in found.lines
     ]
+
+
+def timed(found: Account, times: Sequence[Beside]) -> list[tuple[str, ...]]:
+    """The same with the time of one point: under `TIMED`."""
+    taken = {time.function: f"{time.own:.3g} of {time.full:.3g}" for time in times}
+    return [(*row, taken[row[0]]) for row in table(found)]
 
 
 def data(found: Account) -> dict[str, Any]:
@@ -111,7 +120,8 @@ def data(found: Account) -> dict[str, Any]:
 
 def sentences(found: Account) -> list[str]:
     """What stands above the table."""
-    said = [found.summary, *found.restrictions, f"Constants: {', '.join(found.constants)}."]
+    said = [found.summary] if found.summary else []
+    said += [*found.restrictions, *found.guards, f"Constants: {', '.join(found.constants)}."]
     if found.constants_left_out:
         said.append(f"Constants left out: {', '.join(found.constants_left_out)}.")
     return said
@@ -119,4 +129,4 @@ def sentences(found: Account) -> list[str]:
 
 def title(found: Account) -> str:
     """The same as lines."""
-    return "\n".join(sentences(found))
+    return "\n".join([*sentences(found), "Operations a point, of how many in the full rod:"])

@@ -217,7 +217,7 @@ def _accounts(found: Sequence[Scene], as_json: bool) -> None:
             times = beside.beside(entry.name, tell)
         rows.append(account.data(own) | {"times": beside.data(times)})
         if not as_json:
-            show.table(account.COLUMNS, account.table(own, times), account.title(own))
+            show.table(account.TIMED, account.timed(own, times), account.title(own))
             typer.echo(beside.NOTE)
     if as_json:
         show.as_json(rows)
@@ -237,7 +237,7 @@ def generate(
     as_json: Json = False,
 ) -> None:
     """Rewrite generated/ from the derivation."""
-    from rodproof.codegen import files, places, scene
+    from rodproof.codegen import account, files, places, scene
     from rodproof.codegen import generate as generator
     from rodproof.derivations import ledger
 
@@ -249,10 +249,14 @@ def generate(
         verdicts = ledger.recorded()
         if own and out:
             loaded = scene.load(own)
-            scene.known("target", target or loaded.targets[0], tuple(scene.TARGETS))
-            text = generator.render(loaded, verdicts, target or loaded.targets[0])
-            files.write_text(out, text)
+            wanted = target or loaded.targets[0]
+            scene.known("target", wanted, tuple(scene.TARGETS))
+            kernels = generator.kernels(loaded)
+            files.write_text(out, generator.render(loaded, verdicts, wanted, kernels))
             _written([out], as_json)
+            if not as_json:
+                own_account = account.account(loaded, kernels)
+                show.table(account.COLUMNS, account.table(own_account), account.title(own_account))
             return
         folder = places.checkout().generated
         chosen = [scene.committed(name) for name in names] if names else None

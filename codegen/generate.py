@@ -91,9 +91,17 @@ def plain_kernel(lowered: Kernel, scene: Scene) -> Kernel | None:
     return kernel
 
 
-def render(scene: Scene, verdicts: Mapping[str, str] | None = None, target: str = "numpy") -> str:
-    """The text of the scene's module; ``verdicts`` maps statement ids to what the header says."""
-    return PRINTERS[target](scene, kernels(scene), verdicts)
+def render(
+    scene: Scene,
+    verdicts: Mapping[str, str] | None = None,
+    target: str = "numpy",
+    done: tuple[Kernel, ...] | None = None,
+) -> str:
+    """The text of the scene's module; ``verdicts`` maps statement ids to what the header says.
+
+    ``done`` are its kernels, where they are known already.
+    """
+    return PRINTERS[target](scene, done or kernels(scene), verdicts)
 
 
 def files(scenes: Iterable[Scene], verdicts: Mapping[str, str] | None = None) -> dict[str, str]:

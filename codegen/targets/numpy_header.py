@@ -36,7 +36,7 @@ def header(
         "",
         f"Scene {scene.name}{aim}, made by: rodproof generate {scene.name}",
         *(line for said in scope(scene) for line in ("", *textwrap.wrap(said, WIDTH))),
-        *(line for said in _ranges(scene, kernels) for line in ("", *textwrap.wrap(said, WIDTH))),
+        *(line for said in ranges(scene, kernels) for line in ("", *textwrap.wrap(said, WIDTH))),
         "",
         *textwrap.wrap(
             f"Statements it rests on ({noted}): {cited}.", WIDTH, break_on_hyphens=False
@@ -60,8 +60,8 @@ def _statement(statement: str, verdicts: Mapping[str, str]) -> str:
     return statement + "".join(f" {note}" for note in notes if note)
 
 
-def _ranges(scene: Scene, kernels: tuple[Kernel, ...]) -> list[str]:
-    """The ranges, and the guards that they made needless."""
+def ranges(scene: Scene, kernels: tuple[Kernel, ...]) -> list[str]:
+    """The ranges, and the guards that they made needless, a sentence each."""
     if not scene.ranges:
         return []
     ranges = ", ".join(f"{n} in [{a:g}, {b:g}]" for n, (a, b) in scene.ranges.items())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -156,6 +157,25 @@ def test_generate_own_scene(tmp_path: Path) -> None:
     assert "def strains(" in out.read_text()
     assert "def stiffness(" not in out.read_text()
     assert [path.name for path in out.parent.iterdir()] == ["my_law.py"]
+
+
+def test_generate_own_scene_says_what_was_left_out(tmp_path: Path) -> None:
+    """Loads, constants and guards that are gone, and what is left of the operations."""
+    own, out = tmp_path / "my.toml", tmp_path / "my_law.py"
+    own.write_text(
+        'name = "my_law"\nfunctions = ["loads"]\nconstraints = ["planar"]\n[fixed]\np = 2\n'
+        "[ranges]\nu2 = [-0.1, 0.1]\nv1 = [-0.1, 0.1]\nv3 = [0.9, 1.1]\n"
+        "alpha = [0.5, 2]\nzeta = [0.5, 2]\neta = [0.5, 2]\ngamma = [1, 10]\n"
+    )
+    said = rodproof("generate", "--scene", str(own), "--out", str(out)).stdout
+    for words in ("m1, m3, n2 must be zero", "left out: beta, iota", "Fixed: p = 2"):
+        assert words in said
+    assert "Guards proved needless by interval arithmetic" in said
+    assert "the strain limit (loads)" in said
+    (row,) = (line for line in said.splitlines() if line.startswith("loads"))
+    left, whole = map(int, re.search(r"(\d+) of (\d+)", row).groups())
+    assert 0 < left < whole
+    assert json.loads(rodproof("generate", "--scene", str(own), "--out", str(out), "--json").stdout)
 
 
 def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:

@@ -36,8 +36,8 @@ def test_dna_in_words() -> None:
         "Constants left out: zeta.",
     ]
     times = [Beside(line.function, 20.0, 40.25) for line in ACCOUNTS["dsdna"].lines]
-    rows = {row[0]: row[1:] for row in account.table(ACCOUNTS["dsdna"], times)}
-    assert len(rows["strains"]) == len(account.COLUMNS) - 1
+    rows = {row[0]: row[1:] for row in account.timed(ACCOUNTS["dsdna"], times)}
+    assert len(rows["strains"]) == len(account.TIMED) - 1
     assert rows["strains"][-1] == "20 of 40.2"
     assert rows["strains"][0] == "m (3, ...), n3 (...) -> u (3, ...), v3 (...)"
     assert rows["stiffness"][0] == "u (3, ...), v3 (...) -> stiff (4, 4, ...)"
