@@ -1489,6 +1489,8 @@ def _apply(
 
 def _plain(names: Sequence[str], arrays: Sequence[Any], shape: tuple[int, ...]) -> bool:
     """Whether the arrays are as the loops want them: rows of doubles, of one length."""
+    if len(arrays) != len(names):
+        return False
     for name, a in zip(names, arrays, strict=True):
         if type(a) is not np.ndarray or a.dtype is not DOUBLE or not a.flags.carray:
             return False

@@ -127,6 +127,8 @@ def test_same_words_for_wrong_input() -> None:
         assert "index (2, 3) with Q = 39.6" in str(caught.value)
         with pytest.raises(ValueError, match="m must hold real numbers"):
             module.strains(np.zeros(4), np.zeros(3), c)
+        with pytest.raises(ValueError, match="out must be 2 arrays, for u and v"):
+            module.strains(np.zeros((3, 7)), np.zeros((3, 7)), c, out=(np.zeros((3, 7)),))
         with pytest.raises(ValueError, match=r"beta\^2 eta\^2"):
             module.Constants(**{**GOOD, "iota": 9.0})
     m, n = np.random.default_rng(0).normal(size=(2, 3, 700))
