@@ -60,7 +60,7 @@ def drop_guards(kernel: Kernel, scene: Scene) -> Kernel:
         return kernel
     known = _Intervals(kernel, scene)
     smallest = TINY[scene.precision]
-    settled = _settle(kernel, known, smallest)
+    settled = _settle(kernel, known)
     if settled.gauge is not None:
         square = known.of(symbol(settled.gauge.square))
         room = Interval.around(arb(smallest * 2.0**62), arb(2.0**-62 / smallest))
@@ -74,7 +74,7 @@ def drop_guards(kernel: Kernel, scene: Scene) -> Kernel:
     return settled
 
 
-def _settle(kernel: Kernel, known: _Intervals, smallest: float) -> Kernel:
+def _settle(kernel: Kernel, known: _Intervals) -> Kernel:
     """Floors, ceilings and choices that the intervals decide."""
     nodes = {
         node

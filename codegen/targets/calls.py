@@ -11,11 +11,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.targets.printer import FUNCTIONS, Printer
-
-#: An expression that the printer writes as it stands, a new array.
-OPAQUE = (sp.Piecewise, WorkShare)
 
 
 @dataclass(frozen=True)
@@ -63,8 +59,8 @@ class _Tape:
             raise TypeError(f"no NumPy function for {type(expr).__name__}: {expr}")
 
     def plain(self, expr: sp.Expr) -> bool:
-        """Whether its text is an operand: a name, a number, or a new array."""
-        return expr.is_Symbol or isinstance(expr, OPAQUE) or self.printer.scalar(expr)
+        """Whether its text is an operand: a name or a number."""
+        return expr.is_Symbol or self.printer.scalar(expr)
 
     def call(self, to: str, function: str, *args: sp.Expr | str) -> None:
         """One call; its first compound operand is made in the slot of the result."""
@@ -119,22 +115,17 @@ class _Tape:
             self.call(to, "np.divide", to, self.operand(factor))
 
     def factors(self, expr: sp.Expr) -> tuple[sp.Expr, list[sp.Expr], list[sp.Expr]]:
-        """The scalar factor, and the arrays above (compound first, new ones last) and below."""
+        """The scalar factor, and the arrays above (compound first) and below."""
         above, below = self.printer.factors(expr)
         scalar = self.printer.scalar
         number = sp.Mul(*(f for f in above if scalar(f)), *(1 / f for f in below if scalar(f)))
         arrays = [f for f in above if not scalar(f)]
-        arrays.sort(key=lambda f: (self.plain(f), isinstance(f, OPAQUE)))
+        arrays.sort(key=self.plain)
         return number, arrays, [f for f in below if not scalar(f)]
 
     def scale(self, to: str, scalar: sp.Expr, factor: sp.Expr) -> None:
-        """Times a scalar, or over one where that is what it says."""
-        sign, rest = scalar.as_coeff_Mul()
-        if scalar == -1:
-            self.call(to, "np.negative", factor)
-        elif rest.is_Pow and rest.exp.is_negative and abs(sign) == 1:
-            self.call(to, "np.divide", factor, sign / rest)
-        elif self.plain(factor):
+        """Times a scalar."""
+        if self.plain(factor):
             self.call(to, "np.multiply", scalar, factor)
         else:
             self.call(to, "np.multiply", factor, scalar)

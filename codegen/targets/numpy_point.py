@@ -10,6 +10,7 @@ from sympy.codegen.cfunctions import expm1, log1p
 
 from rodproof.codegen.kernel import Assignment, Kernel, symbol
 from rodproof.codegen.passes.specialise import drop_dead
+from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.scene import CONSTANT_NAMES, Scene
 from rodproof.codegen.targets import scalar
 from rodproof.codegen.targets.lines import filled
@@ -112,10 +113,14 @@ def is_part(kernel: Kernel, kernels: tuple[Kernel, ...]) -> bool:
 
 
 def constants_taken(kernel: Kernel) -> tuple[str, ...]:
-    """The numbers that the function of one point takes, hoisted ones included, in its order."""
+    """The numbers that the function of one point takes, hoisted ones included, in its order.
+
+    `_work_share_at` has p from the record.
+    """
     hoisted = _hoisted(kernel)
     made = {a.name for a in hoisted.constants}
-    used = [s.name for e in hoisted.expressions() for s in sorted(e.free_symbols, key=str)]
+    read = (e.replace(WorkShare, lambda depth, _: depth) for e in hoisted.expressions())
+    used = [s.name for e in read for s in sorted(e.free_symbols, key=str)]
     return tuple(n for n in dict.fromkeys(used) if n in made | set(CONSTANT_NAMES))
 
 

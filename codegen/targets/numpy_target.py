@@ -3,7 +3,7 @@
 A function comes out as a private body, which works on one block of points in the order of the
 kernel, and a public function that checks, broadcasts and runs the body over blocks. A step that
 kernels share is printed once, as a private function of its own; steps that a gauge governs are
-called through `_balanced`.
+called through `_rescaled` or `_balanced`.
 """
 
 from __future__ import annotations

@@ -76,8 +76,6 @@ class Printer:
             known = self.places.get(expr.name, expr.name)
             return self.spelling.get(expr.name, known), ATOM
         if expr.is_Integer:
-            if expr > 10**6 and expr & (expr - 1) == 0:
-                return f"2**{int(expr).bit_length() - 1}", POWER
             return str(expr), ATOM if expr >= 0 else SUM
         if expr.is_Rational and expr.q & (expr.q - 1) == 0:
             return str(float(expr)), ATOM if expr >= 0 else SUM

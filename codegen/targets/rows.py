@@ -96,17 +96,10 @@ class _Printing:
         return [text]
 
     def verbatim(self, call: Call, at: int) -> list[str]:
-        """Lines as they are, with a row of scratch for ``@`` that is free again after them."""
-        (text,) = call.operands
-        if "@" in text and not self.free:
-            self.free.append(self.rows)
-            self.rows += 1
-        lines = (
-            text.replace("@", str(self.free[-1])).split("\n") if "@" in text else text.split("\n")
-        )
+        """Lines as they are."""
         dying = [s for s in sorted(call.reads) if self.last[s] == at and s in self.row]
         self.free += [k for k in (self.row.pop(s) for s in dying) if k not in self.fixed.values()]
-        return lines
+        return list(call.operands)
 
     def open(self, call: Call, freed: list[int]) -> None:
         """A row for the slot: its own, one that this call gives up, a free one, or a new one.

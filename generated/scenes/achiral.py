@@ -143,10 +143,7 @@ class Constants:
     @cached_property
     def of_stored_energy(self) -> tuple[float, ...]:
         """What `stored_energy` of one point takes."""
-        return (
-            self.alpha, self.beta, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p,
-            self.p,
-        )
+        return (self.alpha, self.beta, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p)
 
     @cached_property
     def of_complementary_energy(self) -> tuple[float, ...]:
@@ -747,7 +744,7 @@ def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
 
 def _stored_energy_at(u: Any, v: Any, c: Constants) -> Any:
     """`stored_energy` of floats, where nothing is extreme."""
-    alpha, beta, zeta, eta, minus_half_p, gamma, per_p, p = c.of_stored_energy
+    alpha, beta, zeta, eta, minus_half_p, gamma, per_p = c.of_stored_energy
     u1, u2, u3 = u
     v1, v2, v3 = v
     stretch = v3 - 1

@@ -182,7 +182,7 @@ class Constants:
         """What `stored_energy` of one point takes."""
         return (
             self.alpha, self.beta, self.eta, self.chirality, self.gap, -0.5 * self.p, self.gamma,
-            self.per_p, self.p,
+            self.per_p,
         )
 
     @cached_property
@@ -771,7 +771,7 @@ def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
 
 def _stored_energy_at(u: Any, v3: Any, c: Constants) -> Any:
     """`stored_energy` of floats, where nothing is extreme."""
-    alpha, beta, eta, chirality, gap, minus_half_p, gamma, per_p, p = c.of_stored_energy
+    alpha, beta, eta, chirality, gap, minus_half_p, gamma, per_p = c.of_stored_energy
     u1, u2, u3 = u
     stretch = v3 - 1
     kappa_1, kappa_2, kappa_3 = alpha * u1, alpha * u2, beta * u3

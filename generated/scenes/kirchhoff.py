@@ -129,7 +129,7 @@ class Constants:
     @cached_property
     def of_stored_energy(self) -> tuple[float, ...]:
         """What `stored_energy` of one point takes."""
-        return (self.alpha, self.beta, -0.5 * self.p, self.gamma, self.per_p, self.p)
+        return (self.alpha, self.beta, -0.5 * self.p, self.gamma, self.per_p)
 
     @cached_property
     def of_complementary_energy(self) -> tuple[float, ...]:
@@ -662,7 +662,7 @@ def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
 
 def _stored_energy_at(u: Any, c: Constants) -> Any:
     """`stored_energy` of floats, where nothing is extreme."""
-    alpha, beta, minus_half_p, gamma, per_p, p = c.of_stored_energy
+    alpha, beta, minus_half_p, gamma, per_p = c.of_stored_energy
     u1, u2, u3 = u
     kappa_1, kappa_2, kappa_3 = alpha * u1, alpha * u2, beta * u3
     q = kappa_1 * kappa_1 + kappa_2 * kappa_2 + kappa_3 * kappa_3

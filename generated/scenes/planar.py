@@ -135,7 +135,7 @@ class Constants:
     @cached_property
     def of_stored_energy(self) -> tuple[float, ...]:
         """What `stored_energy` of one point takes."""
-        return (self.alpha, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p, self.p)
+        return (self.alpha, self.zeta, self.eta, -0.5 * self.p, self.gamma, self.per_p)
 
     @cached_property
     def of_complementary_energy(self) -> tuple[float, ...]:
@@ -693,7 +693,7 @@ def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
 
 def _stored_energy_at(u2: Any, v: Any, c: Constants) -> Any:
     """`stored_energy` of floats, where nothing is extreme."""
-    alpha, zeta, eta, minus_half_p, gamma, per_p, p = c.of_stored_energy
+    alpha, zeta, eta, minus_half_p, gamma, per_p = c.of_stored_energy
     v1, v3 = v
     stretch = v3 - 1
     kappa_2, lam_1, lam_3 = alpha * u2, zeta * v1, eta * stretch
