@@ -150,6 +150,15 @@ class Kernel:
             outputs=tuple(replace(o, expr=o.expr.xreplace(changed)) for o in self.outputs),
         )
 
+    def down_to(self, name: str) -> tuple[Assignment, ...]:
+        """The assignments that the name needs, its own the last, in order."""
+        wanted, body = {name}, list[Assignment]()
+        for a in reversed(self.body):
+            if a.name in wanted:
+                body.insert(0, a)
+                wanted |= {s.name for s in a.expr.free_symbols}
+        return tuple(body)
+
     def sizes(self) -> tuple[str, ...]:
         """The constants, given and derived, whose sizes count for a `Region`: all but p."""
         raw = {s.name for expr in self.expressions() for s in expr.free_symbols}

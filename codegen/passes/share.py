@@ -40,11 +40,18 @@ def drop_aliases(kernel: Kernel) -> Kernel:
     """An assignment that only renames another goes away.
 
     Not so where a step takes its input over, as where a modulus is one: the step may have been
-    given it at another scale.
+    given it at another scale. The dyad keeps its names, but nothing before the outputs uses them.
     """
-    kept_names = {kernel.dyad.weight, *kernel.dyad.vector} if kernel.dyad else set[str]()
+    of_dyad = {kernel.dyad.weight, *kernel.dyad.vector} if kernel.dyad else set[str]()
     given = {*kernel.inputs, *(a.name for a in kernel.body if not a.step)}
-    kept_names |= {a.name for a in kernel.body if a.step and str(a.expr) in given}
+    taken_over = {a.name for a in kernel.body if a.step and str(a.expr) in given}
+    renamed = {
+        a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol and a.name in of_dyad - taken_over
+    }
+    if renamed:
+        body = tuple(replace(a, expr=a.expr.xreplace(renamed)) for a in kernel.body)
+        kernel = replace(kernel, body=body)
+    kept_names = of_dyad | taken_over
     aliases = {
         a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol and a.name not in kept_names
     }
@@ -81,6 +88,8 @@ def _share_step(kernel: Kernel, step: str) -> Kernel:
     outputs = [o.expr for o in kernel.outputs] if step == "" else []
     fixed = {a.symbol for a in kernel.constants} | set(CONSTANTS)
     along = {symbol(name) ** 2 for name in kernel.dyad.vector} if kernel.dyad else set()
+    if kernel.region:  # its quantity is written alike in every plain kernel
+        along |= {n for a in kernel.down_to(kernel.region.quantity) for n in _nodes(a.expr)}
     counts = Counter(
         node
         for expr in (*inside, *outputs)
@@ -99,6 +108,10 @@ def _share_step(kernel: Kernel, step: str) -> Kernel:
         replace(o, expr=o.expr.xreplace(names)) if step == "" else o for o in kernel.outputs
     )
     return replace(kernel, body=(*added, *body), outputs=changed)
+
+
+def _nodes(expr: sp.Expr) -> set[sp.Basic]:
+    return set(sp.preorder_traversal(expr))
 
 
 def _worth_a_name(node: sp.Basic) -> bool:

@@ -123,6 +123,8 @@ def _exact(names: list[str]) -> str:
 
 def _doc(used: tuple[str, ...]) -> str:
     """How many constants, in which units, with which signs."""
+    if not used:
+        return "No constant of the rod is left: all are fixed."
     said = []
     for names, one, many in KINDS:
         found = [name for name in names if name in used]

@@ -118,7 +118,7 @@ def squares_of(kernels: tuple[Kernel, ...], constants: dict[str, str]) -> dict[s
 
 def _square(quantity: str, plain: tuple[Kernel, ...], constants: dict[str, str]) -> Square:
     users = [k for k in plain if k.region and k.region.quantity == quantity]
-    body, *others = (_down_to(quantity, kernel) for kernel in users)
+    body, *others = (kernel.down_to(quantity) for kernel in users)
     vectors = {k.dyad.vector for k in users if k.dyad}
     if any({*other} != {*body} for other in others) or len(vectors) > 1:
         raise KernelError(f"the plain kernels disagree on {quantity} or on what goes with it")
@@ -138,16 +138,6 @@ def _used_after(body: tuple[Assignment, ...], kernel: Kernel) -> set[str]:
     later = [a.expr for a in kernel.body if a.name not in made] + [o.expr for o in kernel.outputs]
     used = {s.name for e in later for s in e.free_symbols}
     return made & (used | set(kernel.dyad.vector if kernel.dyad else ()))
-
-
-def _down_to(quantity: str, kernel: Kernel) -> tuple[Assignment, ...]:
-    """The assignments that the quantity needs, in order."""
-    wanted, body = {quantity}, list[Assignment]()
-    for a in reversed(kernel.body):
-        if a.name in wanted:
-            body.insert(0, a)
-            wanted |= {s.name for s in a.expr.free_symbols}
-    return tuple(body)
 
 
 def square_function(square: Square) -> str:
@@ -319,6 +309,8 @@ def plain_record(kernels: tuple[Kernel, ...], points: list[str]) -> str:
 
 def _exact(names: list[str]) -> str:
     """The constants as exact fractions, under their names."""
+    if not names:
+        return ""
     given = ", ".join(f"c.{name}" for name in names)
     if len(names) == 1:
         return f"{INDENT * 2}{names[0]} = Fraction({given})\n"

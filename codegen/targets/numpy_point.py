@@ -162,7 +162,7 @@ def point_constants(kernels: tuple[Kernel, ...]) -> list[str]:
             ]
         )
         for kernel in kernels
-        if not kernel.plain and not is_part(kernel, kernels)
+        if not kernel.plain and not is_part(kernel, kernels) and constants_taken(kernel)
     ]
 
 
@@ -202,7 +202,10 @@ def _taken(kernel: Kernel) -> list[str]:
     """The line that unpacks them."""
     names = [*constants_taken(kernel), *(("low", "high") if kernel.plain else ())]
     source = f"c.plain.of_{kernel.name}" if kernel.plain else f"c.of_{kernel.name}"
-    line = f"{INDENT}{', '.join(names)} = {source}"
+    if not names:
+        return []
+    left = ", ".join(names) if len(names) > 1 else f"({names[0]},)"
+    line = f"{INDENT}{left} = {source}"
     if len(line) <= WIDTH:
         return [line]
     return [f"{INDENT}(", *filled(names, INDENT * 2), f"{INDENT}) = {source}"]

@@ -324,6 +324,42 @@ def test_constants_fixed_at_one_are_numbers_like_others(fixed: dict[str, float])
                 assert ((a == b) | near).all(), function
 
 
+@pytest.mark.parametrize(
+    ("constraints", "fixed"),
+    [
+        (
+            ("achiral",),
+            {"alpha": 1.0, "beta": 1.0, "zeta": 1.0, "eta": 1.0, "gamma": 1.0, "p": 2.0},
+        ),
+        (("unshearable", "inextensible"), {"beta": 1.0}),
+        (("planar", "unshearable", "inextensible"), {"alpha": 1.0}),
+        (("planar", "unshearable", "inextensible"), {"gamma": 1.0, "p": 2.0}),
+    ],
+)
+def test_a_part_of_the_rod_with_constants_fixed_at_one(constraints: tuple, fixed: dict) -> None:
+    """Arrays and one point, near rest and where squares underflow, as the full rod has them."""
+    own = Scene("part", constraints=constraints, fixed=fixed)
+    module = module_of(own)
+    mine, whole = constants(own, module)
+    for function in own.functions:
+        given, all_of_it = inputs(own, function, (2,))
+        if function in OF_LOADS:
+            for part in (*given, *all_of_it):
+                part[..., 1] *= 1e-160
+        law = getattr(module, function)
+        single = [a[..., 0].tolist() for a in given]
+        point = law(*(tuple(s) if isinstance(s, list) else s for s in single), mine)
+        got = law(*given, mine)
+        pairs = zip(got, point, strict=True) if isinstance(got, tuple) else [(got, point)]
+        for array, number in pairs:
+            np.testing.assert_allclose(array[..., 0], number, rtol=1e-13, atol=1e-15)
+        if function not in (FUSED, GAP):
+            got = by_component(own, function, got)
+            want = restricted(own, function, getattr(full_rod, function)(*all_of_it, whole))
+            near = 8 * np.finfo(float).eps * np.abs(want).max(axis=tuple(range(want.ndim - 1)))
+            assert (np.abs(got - want) <= near).all(), function
+
+
 def test_the_coupling_is_checked_where_some_of_it_is_fixed_at_one() -> None:
     module = module_of(Scene("ones", functions=("compliance",), fixed={"eta": 1.0, "iota": 1.0}))
     with pytest.raises(ValueError, match=r"smaller than beta\*eta, not beta=0.5, iota=1.0"):
