@@ -91,3 +91,15 @@ def filled(pieces: Sequence[str], indent: str) -> list[str]:
             lines.append("")
         lines[-1] += f"{' ' * bool(lines[-1])}{piece},"
     return [indent + line for line in lines]
+
+
+def needed(opening: str, text: str) -> str:
+    """The opening of a module without the lines that set what neither it nor the text uses."""
+    kept: list[str] = []
+    for line in reversed(opening.split("\n")):
+        names = re.match(r"([A-Z][A-Z0-9_]*)((?:, [A-Z][A-Z0-9_]*)*) = ", line)
+        rest = "\n".join([*kept, text])
+        every = re.findall(r"\w+", names[0]) if names else []
+        if not names or any(re.search(rf"\b{name}\b", rest) for name in every):
+            kept.insert(0, line)
+    return "\n".join(kept)

@@ -15,6 +15,7 @@ from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.scene import Scene
 from rodproof.codegen.targets import numba_plain, numpy_template, scalar
 from rodproof.codegen.targets import numba_template as template
+from rodproof.codegen.targets.lines import needed
 from rodproof.codegen.targets.numpy_constants import (
     all_have_values,
     derived_constants,
@@ -61,7 +62,8 @@ def print_module(
     parts[1:1] = _functions("\n".join(parts))
     text = _fitted("\n\n\n".join(part.strip("\n") for part in parts) + "\n")
     top = header(scene, kernels, verdicts or {}, target="numba")
-    return f"{top}\n\n{_imports(scene, kernels, words, heads, text)}\n\n{text}"
+    opening = needed(_imports(scene, kernels, words, heads, text), text)
+    return f"{top}\n\n{opening}\n\n{text}"
 
 
 def _fitted(text: str) -> str:

@@ -50,14 +50,9 @@ Inputs = dict[str, ArrayLike]
 BLOCK = 256  # points that are done again with care if one of them needs it
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 LEAST = 2.0**-1022  # the smallest normal number
-LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
 STREAMS = 42  # rows that a loop writes, at most
 DOUBLE = np.dtype(np.float64)
 TINY = {DOUBLE: LEAST}
-EXP_40 = 4.248354255291589e-18  # exp(-40)
-LN2, LN2_REST = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # log 2, in two parts
-PER_LN2 = 1 / math.log(2)
-SQRT_HALF = 0x3FE6A09E667F3BCD  # the bits of 2^(-1/2)
 HEADS: dict[str, tuple[int, ...]] = {
     "m": (3,),
     "n": (3,),

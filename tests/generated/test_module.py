@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 import math
 import os
@@ -365,3 +366,22 @@ def test_text_is_fit_to_read() -> None:
         compile(text, "full_rod.py", "exec")
     for function in HEADS:
         assert getattr(rod, function).__doc__
+
+
+GENERATED = sorted(Path(rod.__file__).parents[1].glob("*/*.py"))
+
+
+@pytest.mark.parametrize("path", GENERATED, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_nothing_is_set_or_defined_that_nothing_uses(path: Path) -> None:
+    """Each name of a module's top is public or is used in the module."""
+    tree = ast.parse(path.read_text("utf-8"))
+    loads = (n for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load))
+    used = {n.id for n in loads}
+    for node in tree.body:
+        names: list[str] = []
+        if isinstance(node, ast.Assign):
+            names = [n.id for n in ast.walk(node.targets[0]) if isinstance(n, ast.Name)]
+        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)) and node.name.startswith("_"):
+            names = [node.name]
+        if names and not {*names} & used:
+            pytest.fail(f"line {node.lineno}: nothing uses {', '.join(names)}")
