@@ -359,7 +359,7 @@ def _apply(
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
     given = [array.reshape(-1, max(points, 1)) for array in arrays]
-    direct = all(
+    direct = out is None or all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
     flat = [
