@@ -10,10 +10,10 @@ import sympy as sp
 from rodproof.codegen.equilibria.system import Piece
 from rodproof.codegen.passes.share import DIVISORS
 from rodproof.codegen.passes.stabilise import CHIRAL_CONSTANTS
-from rodproof.codegen.targets.printer import Printer, wrapped
+from rodproof.codegen.targets.lines import INDENT, wrapped
+from rodproof.codegen.targets.printer import Printer
 from rodproof.derivations.symbols import CONSTANTS
 
-INDENT = "    "
 WIDTH = 98
 FUTURE = "from __future__ import annotations\n"
 SPELLING = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from rodproof.codegen.kernel import Assignment
 from rodproof.codegen.targets.printer import SUM, Printer
@@ -93,13 +93,38 @@ def filled(pieces: Sequence[str], indent: str) -> list[str]:
     return [indent + line for line in lines]
 
 
+def wrapped(opening: str, pieces: list[str], closing: str, joint: str, indent: str) -> list[str]:
+    """Lines for ``opening + joint.join(pieces) + closing``, one piece a line if it is too long."""
+    line = indent + opening + joint.join(pieces) + closing
+    if len(line) <= WIDTH:
+        return [line]
+    inner = indent + INDENT
+    if len(inner + joint.join(pieces)) <= WIDTH:
+        return [indent + opening, inner + joint.join(pieces), indent + closing]
+    comma = joint.rstrip() if joint.strip() else ""
+    return [
+        indent + opening,
+        *(f"{inner}{piece}{comma}" for piece in pieces),
+        indent + closing,
+    ]
+
+
 def needed(opening: str, text: str) -> str:
     """The opening of a module without the lines that set what neither it nor the text uses."""
     kept: list[str] = []
     for line in reversed(opening.split("\n")):
-        names = re.match(r"([A-Z][A-Z0-9_]*)((?:, [A-Z][A-Z0-9_]*)*) = ", line)
+        names = re.match(r"[A-Z]\w*(, [A-Z]\w*)* = ", line)
         rest = "\n".join([*kept, text])
         every = re.findall(r"\w+", names[0]) if names else []
         if not names or any(re.search(rf"\b{name}\b", rest) for name in every):
             kept.insert(0, line)
     return "\n".join(kept)
+
+
+def called(functions: Mapping[str, str], text: str) -> list[str]:
+    """Of the functions, by name, those that the text calls and those that they call."""
+    found: list[str] = []
+    for name, function in reversed([*functions.items()]):
+        if re.search(rf"(?<!def )\b{name}\(", text + "".join(found)):
+            found.insert(0, function)
+    return found

@@ -10,12 +10,9 @@ from collections.abc import Sequence
 
 from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.targets import scalar
-from rodproof.codegen.targets.lines import filled
+from rodproof.codegen.targets.lines import INDENT, filled, wrapped
 from rodproof.codegen.targets.numba_template import NUMBERS, ORDINARY
 from rodproof.codegen.targets.numpy_plain import plain_kernels
-from rodproof.codegen.targets.printer import wrapped
-
-INDENT = "    "
 
 
 def ordinary(kernels: tuple[Kernel, ...]) -> list[str]:

@@ -15,7 +15,8 @@ from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.scene import Scene
 from rodproof.codegen.targets import numba_plain, numpy_template, scalar
 from rodproof.codegen.targets import numba_template as template
-from rodproof.codegen.targets.lines import needed
+from rodproof.codegen.targets.lines import INDENT, called, needed, wrapped
+from rodproof.codegen.targets.numpy_body import upper
 from rodproof.codegen.targets.numpy_constants import (
     all_have_values,
     derived_constants,
@@ -25,11 +26,7 @@ from rodproof.codegen.targets.numpy_constants import (
 )
 from rodproof.codegen.targets.numpy_header import header
 from rodproof.codegen.targets.numpy_plain import plain_kernels, plain_record
-from rodproof.codegen.targets.printer import wrapped
 from rodproof.codegen.texts import FunctionText, function_text
-
-INDENT = "    "
-ROW = 7  # entries stored a line
 
 
 def print_module(
@@ -59,7 +56,7 @@ def print_module(
         ),
         *(_public(kernel, words[kernel.name], scene, kernels) for kernel in kernels),
     ]
-    parts[1:1] = _functions("\n".join(parts))
+    parts[1:1] = called(template.FUNCTIONS, "\n".join(parts))
     text = _fitted("\n\n\n".join(part.strip("\n") for part in parts) + "\n")
     top = header(scene, kernels, verdicts or {}, target="numba")
     opening = needed(_imports(scene, kernels, words, heads, text), text)
@@ -75,15 +72,6 @@ def _fitted(text: str) -> str:
     )
 
 
-def _functions(text: str) -> list[str]:
-    """The functions of the math module that the text calls, and those that they call."""
-    found: list[str] = []
-    for name in reversed(template.FUNCTIONS):
-        if re.search(rf"(?<!def ){name}\(", text + "".join(found)):
-            found.insert(0, template.FUNCTIONS[name])
-    return found
-
-
 def _imports(
     scene: Scene,
     kernels: tuple[Kernel, ...],
@@ -97,22 +85,18 @@ def _imports(
     standard += ["from functools import cached_property"]
     functions = ("frexp", "ldexp", "sqrt")
     used = [name for name in functions if re.search(rf"(?<![\w.]){name}\(", text)]
-    several = sorted({len(found.outputs) for found in words.values()} - {1})
-    kinds = {2: "Pair = tuple[Array, Array]", 3: "Triple = tuple[Array, Array, Array]"}
     fields = derived_constants(kernels) or set(scene.fixed) & set(used_constants(kernels))
     return template.IMPORTS.substitute(
         field_import=", field" if fields else "",
         standard_imports="\n".join(standard),
         functions=", ".join(used),
-        tuples="\n".join(kinds[n] for n in several) or "$",
-        tiny="TINY = {DOUBLE: LEAST}" if plain else "$",
         streams=max(
             sum(math.prod(head) for head in text.outputs.values()) for text in words.values()
         ),
         heads="HEADS: dict[str, tuple[int, ...]] = {\n"
         + "".join(f'    "{name}": {head},\n' for name, head in heads.items())
         + "}",
-    ).replace("$\n", "")
+    )
 
 
 def _constants(scene: Scene, kernels: tuple[Kernel, ...]) -> str:
@@ -157,7 +141,7 @@ def _whole(size: int) -> str:
 
 def _places(size: int) -> list[list[int]]:
     """The place of each entry of a matrix among those on and above the diagonal."""
-    return [[_row(size, min(j, k), max(j, k)) for k in range(size)] for j in range(size)]
+    return [[upper(size, min(j, k), max(j, k)) for k in range(size)] for j in range(size)]
 
 
 def _matrix(text: FunctionText) -> tuple[int, ...]:
@@ -260,11 +244,6 @@ def _nested(text: FunctionText) -> list[str]:
     if first == 1:
         pieces = ["values"]
     return [*lines, f"{INDENT}return {', '.join(pieces)}"] if pieces else lines
-
-
-def _row(size: int, j: int, k: int) -> int:
-    """The place of an entry among those on and above the diagonal."""
-    return j * size - j * (j + 1) // 2 + k
 
 
 def _over(

@@ -20,7 +20,8 @@ from numba.extending import intrinsic
 from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
-$tuples
+Pair = tuple[Array, Array]
+Triple = tuple[Array, Array, Array]
 Inputs = dict[str, ArrayLike]
 
 BLOCK = 256  # points that are done again with care if one of them needs it
@@ -29,7 +30,7 @@ LEAST = 2.0**-1022  # the smallest normal number
 LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
 STREAMS = $streams  # rows that a loop writes, at most
 DOUBLE = np.dtype(np.float64)
-$tiny
+TINY = {DOUBLE: LEAST}
 EXP_40 = 4.248354255291589e-18  # exp(-40)
 LN2, LN2_REST = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # log 2, in two parts
 PER_LN2 = 1 / math.log(2)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
+
 import sympy as sp
 
 from rodproof.codegen.kernel import Kernel, Output
@@ -9,6 +11,9 @@ from rodproof.codegen.scene import LOAD_NAMES
 from rodproof.codegen.targets.lines import INDENT, WIDTH
 from rodproof.codegen.texts import FunctionText
 from rodproof.derivations.symbols import CONSTANTS
+
+#: What may leave the range of numbers before a test finds out.
+QUIET = 'with np.errstate(over="ignore", invalid="ignore"):'
 
 SPREAD = '''\
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
@@ -58,11 +63,27 @@ def heading(kernel: Kernel, name: str, text: FunctionText, answer: str) -> list[
     return [f"def _{name}(", f"{INDENT}{taken}, {given}", f") -> {answer}:"]
 
 
+def unpacked(names: Sequence[str], rows: str) -> str:
+    """The line that gives rows their names; a single one comes in a sequence too."""
+    return f"{', '.join(names)}{',' * (len(names) == 1)} = {rows}"
+
+
+def taken(results: Sequence[str], wanted: Collection[str]) -> str:
+    """The left side that takes of several results those that are wanted."""
+    names = [name if name in wanted else "_" for name in results]
+    return f"*_, {names[-1]}" if {*names[:-1]} == {"_"} else ", ".join(names)
+
+
+def upper(size: int, i: int, j: int) -> int:
+    """The place of an entry among those on and above the diagonal, row after row."""
+    return i * size - i * (i + 1) // 2 + j
+
+
 def place_of(o: Output, packed: int = 0) -> str:
     """Where an output goes; ``packed`` is the size of a matrix whose upper rows follow on."""
     if packed and len(o.index) == 2:
         i, j = o.index
-        return f"{o.array}[{i * packed - i * (i - 1) // 2 + j - i}]"
+        return f"{o.array}[{upper(packed, i, j)}]"
     return f"{o.array}[{', '.join(map(str, o.index))}]" if o.index else o.array
 
 

@@ -16,6 +16,7 @@ from rodproof.codegen.passes.order import order
 from rodproof.codegen.scene import LOAD_NAMES, Scene
 from rodproof.codegen.targets.lines import INDENT, grouped
 from rodproof.codegen.targets.numpy_body import (
+    QUIET,
     beside,
     heading,
     mirrored,
@@ -23,6 +24,8 @@ from rodproof.codegen.targets.numpy_body import (
     place_of,
     rows_name,
     spread,
+    taken,
+    unpacked,
     vector_places,
 )
 from rodproof.codegen.targets.printer import Printer
@@ -85,8 +88,7 @@ def step_function(step: Step, scene: Scene, printer: Printer) -> str:
     lines = [f"def _{step.name}({taken}, c: Constants) -> {kind}:"]
     lines += [f'{INDENT}"""{step_text(step.name, scene)}"""']
     if step.rows:
-        comma = "," if len(step.inputs) == 1 else ""
-        lines += [f"{INDENT}{', '.join(step.inputs)}{comma} = {rows_name(step.inputs)}"]
+        lines += [INDENT + unpacked(step.inputs, rows_name(step.inputs))]
     used = {s.name for a in step.body for s in a.expr.free_symbols}
     for limit in sorted({"tiny", "log_max"} & used):
         lines += [f"{INDENT}{limit} = {limit.upper()}[{step.inputs[0]}.dtype]"]
@@ -183,24 +185,23 @@ def _call(step: Step, kernel: Kernel) -> list[str]:
     """The call of a step, with the limit's guard where its quantity comes out of it."""
     needed = _used_outside(replace(kernel, gauge=None), step.name)
     gauge = kernel.gauge if kernel.gauge and kernel.gauge.step == step.name else None
-    names = [name if name in needed else "_" for name in step.results]
     given = rows_name(step.inputs) if step.rows else step.inputs[0]
     if not gauge:
-        left = f"*_, {names[-1]}" if set(names[:-1]) == {"_"} else ", ".join(names)
-        left = f"({left},)" if step.rows and len(names) == 1 else left
+        left = taken(step.results, needed)
+        left = f"({left},)" if step.rows and len(step.results) == 1 else left
         lines = [f"{left} = _{step.name}({given}, c)"]
         if kernel.limit and kernel.limit.quantity in step.results:  # the guard answers for these
-            lines = ['with np.errstate(over="ignore", invalid="ignore"):', INDENT + lines[0]]
+            lines = [QUIET, INDENT + lines[0]]
     else:
-        values = names[:-1]
+        values = [name if name in needed else "_" for name in step.results[:-1]]
         given_out, function = handed(kernel)
         radii = [n if n in needed else "_" for n in given_out]
         call = f"{', '.join(radii)} = {function}(_{step.name}, {given}, c)"
         if set(values) <= {"_"}:
             lines = [f"_, {call}"]
         else:
-            taken = ", ".join(values) if len(values) > 1 else f"({values[0]},)"
-            lines = [f"values, {call}", f"{taken} = values"]
+            named = ", ".join(values) if len(values) > 1 else f"({values[0]},)"
+            lines = [f"values, {call}", f"{named} = values"]
     if kernel.limit and kernel.limit.quantity in step.results:
         lines += [f"{kernel.limit.quantity} = _within_limit({kernel.limit.quantity})"]
     return lines
@@ -219,6 +220,6 @@ def form_again(kernel: Kernel, steps: dict[str, Step]) -> list[str]:
     """Lines that form the limit's quantity for whole rows ``strains``, beyond the limit too."""
     assert kernel.limit is not None
     step = next(s for s in steps.values() if kernel.limit.quantity in s.results)
-    lines = [*_rest(kernel), 'with np.errstate(over="ignore", invalid="ignore"):']
+    lines = [*_rest(kernel), QUIET]
     lines += [f"{INDENT}*_, {kernel.limit.quantity} = _{step.name}({rows_name(step.inputs)}, c)"]
     return [INDENT + line for line in lines]

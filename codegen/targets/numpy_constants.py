@@ -11,7 +11,8 @@ from rodproof.codegen.kernel import Kernel
 from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.scene import CONSTANT_NAMES, MODULI, Scene
 from rodproof.codegen.targets import numpy_template as template
-from rodproof.codegen.targets.printer import Printer, wrapped
+from rodproof.codegen.targets.lines import wrapped
+from rodproof.codegen.targets.printer import Printer
 from rodproof.codegen.texts import NUMBERS
 
 #: Units and what they are, in the order in which they are said.

@@ -64,8 +64,8 @@ def ranges(scene: Scene, kernels: tuple[Kernel, ...]) -> list[str]:
     """The ranges, and the guards that they made needless, a sentence each."""
     if not scene.ranges:
         return []
-    ranges = ", ".join(f"{n} in [{a:g}, {b:g}]" for n, (a, b) in scene.ranges.items())
-    said = [f"Ranges: {ranges}. Constants are checked; loads and strains are the caller's promise."]
+    spans = ", ".join(f"{n} in [{a:g}, {b:g}]" for n, (a, b) in scene.ranges.items())
+    said = [f"Ranges: {spans}. Constants are checked; loads and strains are the caller's promise."]
     every = dict.fromkeys(guard for kernel in kernels for guard in kernel.dropped)
     users = {guard: [k.name for k in kernels if guard in k.dropped] for guard in every}
     gone = "; ".join(f"{guard} ({', '.join(names)})" for guard, names in users.items())

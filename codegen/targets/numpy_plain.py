@@ -22,8 +22,9 @@ from rodproof.codegen.kernel import (
     symbol,
 )
 from rodproof.codegen.targets.calls import Call, calls
-from rodproof.codegen.targets.lines import INDENT
+from rodproof.codegen.targets.lines import INDENT, wrapped
 from rodproof.codegen.targets.numpy_body import (
+    QUIET,
     beside,
     heading,
     mirrored,
@@ -31,9 +32,11 @@ from rodproof.codegen.targets.numpy_body import (
     place_of,
     rows_name,
     spread,
+    taken,
+    unpacked,
     vector_places,
 )
-from rodproof.codegen.targets.printer import Printer, wrapped
+from rodproof.codegen.targets.printer import Printer
 from rodproof.codegen.targets.rows import Printed, last_reads, print_calls
 from rodproof.codegen.texts import FunctionText, square_text
 from rodproof.derivations.symbols import CONSTANTS
@@ -99,11 +102,6 @@ def plain_kernels(kernels: tuple[Kernel, ...]) -> tuple[Kernel, ...]:
     return tuple(kernel.plain for kernel in kernels if kernel.plain)
 
 
-def in_place(kernels: tuple[Kernel, ...]) -> bool:
-    """Whether a body works in rows of scratch: that of a plain kernel, beside another or not."""
-    return any(kernel.plain or alone(kernel) for kernel in kernels)
-
-
 def alone(kernel: Kernel) -> bool:
     """Whether the kernel is plain, and by itself."""
     return not any(a.step for a in kernel.body)
@@ -142,7 +140,6 @@ def _used_after(body: tuple[Assignment, ...], kernel: Kernel) -> set[str]:
 
 def square_function(square: Square) -> str:
     """The shared beginning as a private function, in place."""
-    comma = "," if len(square.inputs) == 1 else ""
     results = ", ".join(square.results)
     kind = "Rows" if len(square.results) > 1 else "Array"
     rows = rows_name(square.inputs)
@@ -151,7 +148,7 @@ def square_function(square: Square) -> str:
         f'{INDENT}"""{square_text(square.quantity, square.results)}"""',
         f"{INDENT}k = c.plain",
     ]
-    lines += [f"{INDENT}{', '.join(square.inputs)}{comma} = {rows}"]
+    lines += [INDENT + unpacked(square.inputs, rows)]
     lines += [INDENT + line for line in square.printed.lines]
     return "\n".join([*lines, f"{INDENT}return {results}"])
 
@@ -175,8 +172,7 @@ def plain_body(
     count = max(printed.rows, square.printed.rows if square else 0)
     own = " ".join(printed.lines)
     used = [name if re.search(rf"\b{name}\b", own) else "_" for name in kernel.inputs]
-    comma = "," if len(kernel.inputs) == 1 else ""
-    lines = [f"{', '.join(used)}{comma} = {rows}"] if {*used} != {"_"} else []
+    lines = [unpacked(used, rows)] if {*used} != {"_"} else []
     lines += [f"work = _scratch({count}, {rows}[0])", "s = [*work]"]
     if kernel.dyad:
         first, vector = square.first if square else 0, kernel.dyad.vector
@@ -200,10 +196,9 @@ def _opening(kernel: Kernel, text: FunctionText) -> list[str]:
 
 def _begun(square: Square, rows: str, held: Mapping[str, int]) -> list[str]:
     """The call of the shared beginning, and the test of the region."""
-    taken = [name if name in (*held, square.quantity) else "_" for name in square.results]
-    left = f"*_, {taken[-1]}" if len(taken) > 1 and {*taken[:-1]} == {"_"} else ", ".join(taken)
+    left = taken(square.results, (*held, square.quantity))
     return [
-        'with np.errstate(over="ignore", invalid="ignore"):',
+        QUIET,
         f"{INDENT}{left} = _{square.quantity}({rows}, c, s)",
         f"if not _inside({square.quantity}, k.within_{square.quantity}):",
         f"{INDENT}return False",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cache
 
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
@@ -13,18 +14,9 @@ from rodproof.codegen.passes.specialise import drop_dead
 from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.scene import CONSTANT_NAMES, Scene
 from rodproof.codegen.targets import scalar
-from rodproof.codegen.targets.lines import filled
+from rodproof.codegen.targets.lines import INDENT, WIDTH, filled
 from rodproof.codegen.targets.printer import Printer
 from rodproof.codegen.texts import FunctionText
-
-INDENT = "    "
-WIDTH = 100
-FUNCTIONS = ("exp", "expm1", "log", "log1p", "sqrt")
-LOW = "LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing"
-NOUGHT = "NOUGHT = 2.0**-700  # stands for a square at rest: its inverse is a number"
-DOUBLE = "DOUBLE = np.dtype(np.float64)"
-LEAST = "LEAST = 2.0**-1022  # the smallest normal number, for one point"
-LOG_MOST = "LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number"
 
 EXTREME = '''\
 class _Extreme(ArithmeticError):
@@ -124,6 +116,7 @@ def constants_taken(kernel: Kernel) -> tuple[str, ...]:
     return tuple(n for n in dict.fromkeys(used) if n in made | set(CONSTANT_NAMES))
 
 
+@cache
 def _hoisted(kernel: Kernel) -> Kernel:
     """The kernel that is printed, with its products of constants: the plain one, if there is one.
 

@@ -16,6 +16,7 @@ from rodproof.codegen.scene import Scene
 from rodproof.codegen.targets import numpy_gauge as gauge
 from rodproof.codegen.targets import numpy_point as one
 from rodproof.codegen.targets import numpy_template as template
+from rodproof.codegen.targets.lines import INDENT, WIDTH, called, needed, wrapped
 from rodproof.codegen.targets.numpy_body import (
     MIRROR,
     SPREAD,
@@ -26,14 +27,12 @@ from rodproof.codegen.targets.numpy_careful import (
     Step,
     careful_body,
     form_again,
-    handed,
     step_function,
     steps_of,
 )
 from rodproof.codegen.targets.numpy_constants import (
     all_have_values,
     derived_constants,
-    needs_work_share,
     print_constants,
     used_constants,
 )
@@ -43,17 +42,26 @@ from rodproof.codegen.targets.numpy_plain import (
     SCRATCH,
     Square,
     alone,
-    in_place,
     plain_body,
-    plain_kernels,
     plain_record,
     square_function,
     squares_of,
 )
-from rodproof.codegen.targets.printer import Printer, wrapped
+from rodproof.codegen.targets.printer import Printer
 from rodproof.codegen.texts import FunctionText, function_text
 
-INDENT = "    "
+#: Functions of the module math that one point may call.
+MATH = ("exp", "expm1", "log", "log1p", "sqrt")
+
+
+#: What bodies and points may call, by name; what they do not call is left out.
+SHARED = {
+    "_rescaled": gauge.RESCALED,
+    "_balanced": gauge.BALANCED,
+    "_work_share": template.WORK_SHARE,
+    "_work_share_at": one.WORK_SHARE,
+}
+PLAIN = {"_scratch": SCRATCH, "_inside": INSIDE}
 
 
 def print_module(
@@ -64,32 +72,32 @@ def print_module(
     named = spelling(kernels)
     printer = Printer(named)
     steps, squares = steps_of(kernels, printer), squares_of(kernels, named)
-    points = {k.name: one.point(k, words[k.name], scene, named, kernels) for k in kernels}
     bodies = {k.name: _bodies(k, steps, squares, words[k.name], named) for k in kernels}
+    for k in kernels:
+        bodies[k.name].append(one.point(k, words[k.name], scene, named, kernels))
+    own = "\n".join(body for several in bodies.values() for body in several)
     limited = [kernel for kernel in kernels if kernel.limit]
     raising = bool(limited) and scene.at_limit == "raise"
     parts = [
-        header(scene, kernels, verdicts or {}) + "\n\n" + _imports(scene, kernels, words, points),
         print_constants(scene, kernels, one.point_constants(kernels)),
         *filter(None, [plain_record(kernels, one.point_values(kernels))]),
         *(step_function(step, scene, printer) for step in steps.values()),
+        *called(SHARED, own),
     ]
-    gauges = {handed(kernel)[1] for kernel in kernels if kernel.gauge}
-    parts += [gauge.RESCALED] if gauges else []
-    parts += [gauge.BALANCED] if "_balanced" in gauges else []
-    parts += [template.WORK_SHARE, one.WORK_SHARE] if needs_work_share(kernels) else []
     if limited:
         parts.append(template.RAISE if raising else template.NAN)
     if raising:
         parts.append(_past_limit(limited[0], steps))
-    parts += _plumbing(scene, kernels, raising=raising)
+    parts += [*_plumbing(scene, raising=raising), *called(PLAIN, own)]
     parts += [square_function(square) for square in squares.values()]
-    parts += _matrices(scene, bodies)
+    spread = SPREAD_PACKED if scene.matrix == "packed" else SPREAD
+    parts += called({"_spread": spread, "_mirror": MIRROR}, own)
     default = " = ROD" if all_have_values(scene, kernels) else ""
     for kernel in kernels:
-        parts += [*bodies[kernel.name], points[kernel.name]]
-        parts.append(_public(kernel, words[kernel.name], default))
-    return "\n\n\n".join(part.strip("\n") for part in parts) + "\n"
+        parts += [*bodies[kernel.name], _public(kernel, words[kernel.name], default)]
+    text = "\n\n\n".join(part.strip("\n") for part in parts) + "\n"
+    opening = needed(_imports(scene, kernels, words, text), text)
+    return f"{header(scene, kernels, verdicts or {})}\n\n{opening}\n\n{text}"
 
 
 def _bodies(
@@ -106,69 +114,40 @@ def _bodies(
     return [*plain, careful_body(kernel, steps, named, text)]
 
 
-def _matrices(scene: Scene, bodies: Mapping[str, list[str]]) -> list[str]:
-    """What the bodies call to fill matrices."""
-    text = "".join(body for several in bodies.values() for body in several)
-    spread = SPREAD_PACKED if scene.matrix == "packed" else SPREAD
-    found = [spread] if " _spread(" in text else []
-    return [*found, MIRROR] if " _mirror(" in text else found
-
-
 def _imports(
-    scene: Scene,
-    kernels: tuple[Kernel, ...],
-    words: Mapping[str, FunctionText],
-    points: Mapping[str, str],
+    scene: Scene, kernels: tuple[Kernel, ...], words: Mapping[str, FunctionText], text: str
 ) -> str:
     """Imports, names of types, and the tables that the functions look things up in."""
-    derived, plain = derived_constants(kernels), plain_kernels(kernels)
-    heads = {n: h for text in words.values() for n, h in (text.inputs | text.outputs).items()}
-    standard = ["from fractions import Fraction"] if derived or plain else []
+    derived = derived_constants(kernels)
+    heads = {n: h for found in words.values() for n, h in (found.inputs | found.outputs).items()}
+    standard = ["from fractions import Fraction"] if "Fraction(" in text else []
     standard += ["from functools import cached_property"]
-    single = "".join(points.values())
-    single += one.WORK_SHARE if needs_work_share(kernels) else ""
-    functions = [name for name in one.FUNCTIONS if re.search(rf"(?<!\w){name}\(", single)]
+    functions = [name for name in MATH if re.search(rf"(?<![\w.]){name}\(", text)]
     standard += [f"from math import {', '.join(functions)}"] if functions else []
-    used = {s.name for kernel in kernels for e in kernel.expressions() for s in e.free_symbols}
-    guards = [template.LOG_MAX] if "log_max" in used else []
-    if guards or plain or "tiny" in used or any(kernel.gauge for kernel in kernels):
-        guards = [template.TINY, *guards]
-    guards += [one.LEAST] if "LEAST" in single else []
-    guards += [one.LOG_MOST] if "LOG_MOST" in single else []
-    guards += [one.LOW] if "LOW" in single else []
-    guards += [one.NOUGHT] if "NOUGHT" in single else []
-    guards += [one.DOUBLE] if plain else []
-    several = sorted({len(text.outputs) for text in words.values()} - {1})
-    kinds = {2: "Pair = tuple[Array, Array]", 3: "Triple = tuple[Array, Array, Array]"}
-    text = template.IMPORTS.substitute(
-        threading="import threading" if in_place(kernels) else "$",
-        kept="KEPT = threading.local()  # scratch, from call to call" if in_place(kernels) else "$",
-        field_import=", field"
-        if derived or set(scene.fixed) & set(used_constants(kernels))
-        else "",
-        standard_imports="\n".join(standard) or "$",
-        tuples="\n".join(kinds[n] for n in several) or "$",
-        limits="\n".join(guards) or "$",
+    fields = derived or set(scene.fixed) & set(used_constants(kernels))
+    return template.IMPORTS.substitute(
+        threading="\nimport threading" if "KEPT" in text else "",
+        field_import=", field" if fields else "",
+        standard_imports="\n".join(standard),
         heads=_table("HEADS", {f'"{name}"': str(head) for name, head in heads.items()}),
     )
-    return text.replace("$\n", "")
 
 
 def _table(name: str, entries: Mapping[str, str]) -> str:
     """A dictionary, on as few lines as hold it."""
     pieces = [f"{key}: {value}," for key, value in entries.items()]
     line = f"{name} = {{{' '.join(pieces)[:-1]}}}"
-    if len(line) <= 100:
+    if len(line) <= WIDTH:
         return line
     lines = [INDENT]
     for piece in pieces:
-        if len(lines[-1] + piece) > 100:
+        if len(lines[-1] + piece) > WIDTH:
             lines.append(INDENT)
         lines[-1] += piece + " "
     return "\n".join([f"{name} = {{", *(line.rstrip() for line in lines), "}"])
 
 
-def _plumbing(scene: Scene, kernels: tuple[Kernel, ...], *, raising: bool) -> list[str]:
+def _plumbing(scene: Scene, *, raising: bool) -> list[str]:
     """The functions that take arrays in, run a body over blocks, and hand results out."""
     first = scene.layout == "first"
     run = template.RUN_RAISE if raising else template.RUN
@@ -178,8 +157,6 @@ def _plumbing(scene: Scene, kernels: tuple[Kernel, ...], *, raising: bool) -> li
         whole.substitute(run=run.substitute(outputs=template.OUTPUTS[scene.layout])),
         one.EXTREME,
         one.ONE,
-        *([SCRATCH] if in_place(kernels) else []),
-        *([INSIDE] if plain_kernels(kernels) else []),
     ]
 
 

@@ -10,8 +10,7 @@ from string import Template
 IMPORTS = Template("""\
 from __future__ import annotations
 
-import math
-$threading
+import math$threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass$field_import
 $standard_imports
@@ -21,21 +20,23 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 Array = np.ndarray[Any, np.dtype[Any]]
-$tuples
+Pair = tuple[Array, Array]
+Triple = tuple[Array, Array, Array]
 Rows = Sequence[Array]
 Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
 Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
-$kept
-$limits
+KEPT = threading.local()  # scratch, from call to call
+TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
+LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
+LEAST = 2.0**-1022  # the smallest normal number, for one point
+LOG_MOST = 0.99 * 1022 * math.log(2)  # its exponential is near the largest number
+LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
+NOUGHT = 2.0**-700  # stands for a square at rest: its inverse is a number
+DOUBLE = np.dtype(np.float64)
 $heads
 """)
-
-TINY = "TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}"
-LOG_MAX = (
-    "LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number"
-)
 
 CONSTANTS = Template('''\
 @dataclass($decorator)

@@ -132,19 +132,3 @@ class Printer:
 
 def _is_negative(term: sp.Expr) -> bool:
     return bool(term.as_coeff_Mul()[0].is_negative)
-
-
-def wrapped(opening: str, pieces: list[str], closing: str, joint: str, indent: str) -> list[str]:
-    """Lines for ``opening + joint.join(pieces) + closing``, one piece a line if it is too long."""
-    line = indent + opening + joint.join(pieces) + closing
-    if len(line) <= 100:
-        return [line]
-    inner = indent + "    "
-    if len(inner + joint.join(pieces)) <= 100:
-        return [indent + opening, inner + joint.join(pieces), indent + closing]
-    comma = joint.rstrip() if joint.strip() else ""
-    return [
-        indent + opening,
-        *(f"{inner}{piece}{comma}" for piece in pieces),
-        indent + closing,
-    ]

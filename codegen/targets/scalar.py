@@ -15,12 +15,10 @@ from sympy.codegen.cfunctions import expm1, log1p
 from rodproof.codegen.kernel import Assignment, Kernel, Output, log_max, symbol, tiny
 from rodproof.codegen.passes.share import drop_aliases
 from rodproof.codegen.primitives import WorkShare
-from rodproof.codegen.targets.lines import filled, grouped
-from rodproof.codegen.targets.printer import ATOM, POWER, PRODUCT, Printer, wrapped
+from rodproof.codegen.targets.lines import INDENT, WIDTH, filled, grouped, wrapped
+from rodproof.codegen.targets.printer import ATOM, POWER, PRODUCT, Printer
 from rodproof.derivations.symbols import CONSTANTS
 
-INDENT = "    "
-WIDTH = 100
 LOOSE = -1  # a choice binds less than a sum
 MATH: dict[type, str] = {sp.exp: "exp", sp.log: "log", log1p: "log1p", expm1: "expm1"}
 #: Properties of double precision, as the printed modules call them.
