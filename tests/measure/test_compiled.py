@@ -185,6 +185,9 @@ def test_results_are_kept_by_the_peers_version(monkeypatch: pytest.MonkeyPatch) 
 def test_peers_are_in_a_full_measurement(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Errors, times, words and what is missing, stored and on the page; goes on among the peers."""
     missing = compiled.missing
+    derived = [peer for peer in compiled.forms() if peer.can(Code(subject("thrust"), "strains"))]
+    if all(missing(peer) for peer in derived if peer.name != "jax"):
+        pytest.skip("no peer is installed: pip install 'rodproof[peers]'")
 
     def without_jax(peer: Form) -> str | None:
         return "left out" if peer.name == "jax" else missing(peer)
@@ -206,7 +209,6 @@ def test_peers_are_in_a_full_measurement(tmp_path: Path, monkeypatch: pytest.Mon
     found = survey.measure(path, WHOLE, tell, chosen=chosen)
     assert told == [(done, total) for done in range(kept, total + 1)]
     assert records.load(path) == found
-    derived = [peer for peer in compiled.forms() if peer.can(Code(subject("thrust"), "strains"))]
     absent = {row.form for row in found.missing}
     assert "jax" in absent
     for peer in derived:
