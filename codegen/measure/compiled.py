@@ -194,7 +194,8 @@ def _by_hand(power: int) -> Bind:
             nonlocal kept
             if not kept or kept[0] is not first or kept[1] is not second:
                 points = first.shape[1]
-                outs = tuple(np.empty((*head, points)) for head in heads.get(code.function, pair))
+                shapes = heads.get(code.function, pair)
+                outs = tuple(peer_c.aligned((*head, points)) for head in shapes)
                 run = peer_c.bound(library, code.function, (first, second, k, *outs), points)
                 kept = (first, second, outs, run)
             kept[3]()

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import ctypes
+import math
 import shutil
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from rodproof.codegen.measure.form import NotHere
+from rodproof.codegen.measure.inputs import Array
 
 SOURCE = Path(__file__).with_name("peer_kernel.c")
 FLAGS = ("-O3", "-march=native", "-ffast-math", "-fopenmp-simd", "-fPIC")
@@ -37,6 +41,13 @@ def build(power: int, folder: Path) -> ctypes.CDLL:
         if done.returncode:
             raise NotHere(f"{found}: {(done.stderr.splitlines() or ['failed'])[0]}")
     return ctypes.CDLL(str(target))
+
+
+def aligned(shape: tuple[int, ...]) -> Array:
+    """An array of doubles that begins a cache line, as the results of a generated module do."""
+    size = math.prod(shape) * 8
+    memory = np.empty(size + 64, np.uint8)
+    return np.ndarray(shape, np.float64, memory, -memory.ctypes.data % 64)
 
 
 def bound(library: ctypes.CDLL, function: str, arrays: Sequence[Any], points: int) -> Any:

@@ -24,6 +24,7 @@ Pair = tuple[Array, Array]
 Triple = tuple[Array, Array, Array]
 Inputs = dict[str, ArrayLike]
 
+LINE = 64  # bytes of a cache line
 BLOCK = 256  # points that are done again with care if one of them needs it
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 LEAST = 2.0**-1022  # the smallest normal number
@@ -305,26 +306,52 @@ def _apply(
     names: Sequence[str],
     out: Any,
 ) -> Sequence[Array]:
-    """Runs ``over`` on all points, straight into the results where that is safe."""
-    given: Sequence[Any] = tuple(inputs.values())
+    """Runs ``over`` on all points; at once where the arrays are as its loop wants them."""
+    given: tuple[Any, ...] = tuple(inputs.values())
     shape = given[0].shape[$trailing] if type(given[0]) is np.ndarray else ()
-    results: Sequence[Any] = out if type(out) is tuple else (out,)
     if out is None:
-        results = [np.empty($shape) for name in names]
-    flat, straight = results, True
-    if not shape or not _plain((*inputs, *names), (*given, *results), shape):
-        arrays, shape = _arguments(inputs)
-        results = _results(names, shape, arrays[0].dtype, out)
-        points = math.prod(shape)
-        given = [
-            np.require(array.reshape(*HEADS[name], points)$turned, requirements=["C", "A"])
-            for name, array in zip(inputs, arrays, strict=True)
-        ]
-        straight = all(r.flags.carray and r.dtype == DOUBLE for r in results)
-        flat = [
-            r.reshape($flat) if straight else np.empty(($flat))
-            for name, r in zip(names, results, strict=True)
-        ]
+        results = tuple([_fresh($shape, DOUBLE) for name in names])
+    else:
+        results = out if type(out) is tuple else (out,)
+    if shape and _plain((*inputs, *names), given + results, shape):
+        past, _, _ = over(c.numbers, *given, *results)
+        if not past:
+            return results
+    return _apply_to_any(over, inputs, c, names, out)
+
+
+def _plain(names: Sequence[str], arrays: Sequence[Any], shape: tuple[int, ...]) -> bool:
+    """Whether the arrays are as the loops want them: rows of doubles, of one length."""
+    if len(arrays) != len(names):
+        return False
+    for name, a in zip(names, arrays):  # noqa: B905, strict takes longer than a test
+        if type(a) is not np.ndarray or a.dtype is not DOUBLE or a.shape != $shape:
+            return False
+        if not a.flags.carray:
+            return False
+    return True
+
+
+def _apply_to_any(
+    over: Callable[..., tuple[int, Any, float]],
+    inputs: Inputs,
+    c: Constants,
+    names: Sequence[str],
+    out: Any,
+) -> Sequence[Array]:
+    """Runs ``over`` on all points, straight into the results where that is safe."""
+    arrays, shape = _arguments(inputs)
+    results = _results(names, shape, arrays[0].dtype, out)
+    points = math.prod(shape)
+    given = [
+        np.require(array.reshape(*HEADS[name], points)$turned, requirements=["C", "A"])
+        for name, array in zip(inputs, arrays, strict=True)
+    ]
+    straight = all(r.flags.carray and r.dtype == DOUBLE for r in results)
+    flat = [
+        r.reshape($flat) if straight else _fresh(($flat), DOUBLE)
+        for name, r in zip(names, results, strict=True)
+    ]
     past, first, q = over(c.numbers, *given, *flat)
     if past < 0:  # something shares memory
         straight, flat = False, [np.empty_like(values) for values in flat]
@@ -337,16 +364,4 @@ def _apply(
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
     return results
-
-
-def _plain(names: Sequence[str], arrays: Sequence[Any], shape: tuple[int, ...]) -> bool:
-    """Whether the arrays are as the loops want them: rows of doubles, of one length."""
-    if len(arrays) != len(names):
-        return False
-    for name, a in zip(names, arrays, strict=True):
-        if type(a) is not np.ndarray or a.dtype is not DOUBLE or not a.flags.carray:
-            return False
-        if a.shape != $shape:
-            return False
-    return True
 ''')

@@ -64,11 +64,11 @@ def _rounded(ratio: Fraction) -> float:
 SCRATCH = '''\
 def _scratch(count: int, like: Array) -> Array:
     """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = like.size + 16  # rows a power of two apart would share their places in the cache
+    length = (like.size // LINE + 1) * LINE
     needed = count * length * like.itemsize
     memory = getattr(KEPT, "memory", None)
     if memory is None or len(memory) < needed:
-        memory = KEPT.memory = np.empty(needed, np.uint8)
+        memory = KEPT.memory = _fresh((needed,), np.uint8)
     rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
     return rows[:, : like.size]
 '''

@@ -27,6 +27,7 @@ Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
 Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
+LINE = 64  # bytes of a cache line
 KEPT = threading.local()  # scratch, from call to call
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LOG_MAX = {t: -0.99 * math.log(TINY[t]) for t in TINY}  # exp of it is near the largest number
@@ -195,6 +196,15 @@ $reduce
 ''')
 
 ARGUMENTS = Template('''\
+def _fresh(shape: tuple[int, ...], dtype: Any) -> Array:
+    """A new array. A long one begins a cache line: stores across two of them take twice as long."""
+    wanted = math.prod(shape) * np.dtype(dtype).itemsize
+    if wanted < 2**15:
+        return np.empty(shape, dtype)
+    memory = np.empty(wanted + LINE, np.uint8)
+    return np.ndarray(shape, dtype, memory, -memory.ctypes.data % LINE)
+
+
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
 $alike    arrays = {name: np.asarray(value) for name, value in inputs.items()}
@@ -226,7 +236,7 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
     shapes = [$result for name in names]
     if out is None:
-        return [np.empty(wanted, dtype) for wanted in shapes]
+        return [_fresh(wanted, dtype) for wanted in shapes]
     given = out if isinstance(out, tuple) else (out,)
     if len(given) != len(names):
         raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
@@ -301,11 +311,11 @@ def _apply(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
     flat = [
-        (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
+        (r if direct else _fresh(r.shape, r.dtype)).reshape(*HEADS[name], points)
         for name, r in zip(names, results, strict=True)
     ]
     blocks = max(1, -(-points // BLOCK))
-    size = max(1, -(-points // blocks))  # blocks of one length
+    size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
@@ -332,13 +342,13 @@ def _apply(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
     whole = [
-        (r if direct else np.empty(r.shape, r.dtype)).reshape(points, *HEADS[name])
+        (r if direct else _fresh(r.shape, r.dtype)).reshape(points, *HEADS[name])
         for name, r in zip(names, results, strict=True)
     ]
     blocks = max(1, -(-points // BLOCK))
-    size = max(1, -(-points // blocks))  # blocks of one length
-    taken = [np.empty((len(array), size), array.dtype) for array in given]
-    made = [np.empty((*HEADS[name], size), arrays[0].dtype) for name in names]
+    size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
+    taken = [_fresh((len(array), size), array.dtype) for array in given]
+    made = [_fresh((*HEADS[name], size), arrays[0].dtype) for name in names]
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))

@@ -45,6 +45,7 @@ Pair = tuple[Array, Array]
 Triple = tuple[Array, Array, Array]
 Inputs = dict[str, ArrayLike]
 
+LINE = 64  # bytes of a cache line
 BLOCK = 256  # points that are done again with care if one of them needs it
 LOW, HIGH = 2.0**-962, 2.0**962  # between them sums of squares lose nothing
 LEAST = 2.0**-1022  # the smallest normal number
@@ -1529,6 +1530,15 @@ def _stiffness_at_loads_over(
     return past, first, worst
 
 
+def _fresh(shape: tuple[int, ...], dtype: Any) -> Array:
+    """A new array. A long one begins a cache line: stores across two of them take twice as long."""
+    wanted = math.prod(shape) * np.dtype(dtype).itemsize
+    if wanted < 2**15:
+        return np.empty(shape, dtype)
+    memory = np.empty(wanted + LINE, np.uint8)
+    return np.ndarray(shape, dtype, memory, -memory.ctypes.data % LINE)
+
+
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
     ready = [*map(np.asarray, inputs.values())]
@@ -1567,7 +1577,7 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
     shapes = [(*HEADS[name], *shape) for name in names]
     if out is None:
-        return [np.empty(wanted, dtype) for wanted in shapes]
+        return [_fresh(wanted, dtype) for wanted in shapes]
     given = out if isinstance(out, tuple) else (out,)
     if len(given) != len(names):
         raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
@@ -1585,26 +1595,52 @@ def _apply(
     names: Sequence[str],
     out: Any,
 ) -> Sequence[Array]:
-    """Runs ``over`` on all points, straight into the results where that is safe."""
-    given: Sequence[Any] = tuple(inputs.values())
+    """Runs ``over`` on all points; at once where the arrays are as its loop wants them."""
+    given: tuple[Any, ...] = tuple(inputs.values())
     shape = given[0].shape[-1:] if type(given[0]) is np.ndarray else ()
-    results: Sequence[Any] = out if type(out) is tuple else (out,)
     if out is None:
-        results = [np.empty(HEADS[name] + shape) for name in names]
-    flat, straight = results, True
-    if not shape or not _plain((*inputs, *names), (*given, *results), shape):
-        arrays, shape = _arguments(inputs)
-        results = _results(names, shape, arrays[0].dtype, out)
-        points = math.prod(shape)
-        given = [
-            np.require(array.reshape(*HEADS[name], points), requirements=["C", "A"])
-            for name, array in zip(inputs, arrays, strict=True)
-        ]
-        straight = all(r.flags.carray and r.dtype == DOUBLE for r in results)
-        flat = [
-            r.reshape(*HEADS[name], points) if straight else np.empty((*HEADS[name], points))
-            for name, r in zip(names, results, strict=True)
-        ]
+        results = tuple([_fresh(HEADS[name] + shape, DOUBLE) for name in names])
+    else:
+        results = out if type(out) is tuple else (out,)
+    if shape and _plain((*inputs, *names), given + results, shape):
+        past, _, _ = over(c.numbers, *given, *results)
+        if not past:
+            return results
+    return _apply_to_any(over, inputs, c, names, out)
+
+
+def _plain(names: Sequence[str], arrays: Sequence[Any], shape: tuple[int, ...]) -> bool:
+    """Whether the arrays are as the loops want them: rows of doubles, of one length."""
+    if len(arrays) != len(names):
+        return False
+    for name, a in zip(names, arrays):  # noqa: B905, strict takes longer than a test
+        if type(a) is not np.ndarray or a.dtype is not DOUBLE or a.shape != HEADS[name] + shape:
+            return False
+        if not a.flags.carray:
+            return False
+    return True
+
+
+def _apply_to_any(
+    over: Callable[..., tuple[int, Any, float]],
+    inputs: Inputs,
+    c: Constants,
+    names: Sequence[str],
+    out: Any,
+) -> Sequence[Array]:
+    """Runs ``over`` on all points, straight into the results where that is safe."""
+    arrays, shape = _arguments(inputs)
+    results = _results(names, shape, arrays[0].dtype, out)
+    points = math.prod(shape)
+    given = [
+        np.require(array.reshape(*HEADS[name], points), requirements=["C", "A"])
+        for name, array in zip(inputs, arrays, strict=True)
+    ]
+    straight = all(r.flags.carray and r.dtype == DOUBLE for r in results)
+    flat = [
+        r.reshape(*HEADS[name], points) if straight else _fresh((*HEADS[name], points), DOUBLE)
+        for name, r in zip(names, results, strict=True)
+    ]
     past, first, q = over(c.numbers, *given, *flat)
     if past < 0:  # something shares memory
         straight, flat = False, [np.empty_like(values) for values in flat]
@@ -1617,18 +1653,6 @@ def _apply(
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
     return results
-
-
-def _plain(names: Sequence[str], arrays: Sequence[Any], shape: tuple[int, ...]) -> bool:
-    """Whether the arrays are as the loops want them: rows of doubles, of one length."""
-    if len(arrays) != len(names):
-        return False
-    for name, a in zip(names, arrays, strict=True):
-        if type(a) is not np.ndarray or a.dtype is not DOUBLE or not a.flags.carray:
-            return False
-        if a.shape != HEADS[name] + shape:
-            return False
-    return True
 
 
 def strains(m: ArrayLike, n: ArrayLike, constants: Constants, out: Pair | None = None) -> Pair:

@@ -53,6 +53,7 @@ Given = ArrayLike | tuple[Any, ...]  # arrays and their like; one point
 Inputs = dict[str, Given]
 
 BLOCK = 16384  # at most so many points are worked on at a time, so that rows stay in cache
+LINE = 64  # bytes of a cache line
 KEPT = threading.local()  # scratch, from call to call
 TINY = {np.dtype(t): float(np.finfo(t).tiny) for t in (np.float32, np.float64)}
 LEAST = 2.0**-1022  # the smallest normal number, for one point
@@ -330,6 +331,15 @@ def _past_limit(strains: Rows, c: Constants, shape: tuple[int, ...]) -> ValueErr
     return ValueError(f"strains must satisfy Q(u, v) < 1: {bad.size} of {q.size} do not, {first}")
 
 
+def _fresh(shape: tuple[int, ...], dtype: Any) -> Array:
+    """A new array. A long one begins a cache line: stores across two of them take twice as long."""
+    wanted = math.prod(shape) * np.dtype(dtype).itemsize
+    if wanted < 2**15:
+        return np.empty(shape, dtype)
+    memory = np.empty(wanted + LINE, np.uint8)
+    return np.ndarray(shape, dtype, memory, -memory.ctypes.data % LINE)
+
+
 def _arguments(inputs: Inputs) -> tuple[list[Array], tuple[int, ...]]:
     """The inputs as float arrays of one type, components first, and the trailing shape."""
     ready = [*map(np.asarray, inputs.values())]
@@ -368,7 +378,7 @@ def _results(names: Sequence[str], shape: tuple[int, ...], dtype: Any, out: Any)
     """The arrays to fill: new ones, or ``out`` after a check of its shapes and types."""
     shapes = [(*HEADS[name], *shape) for name in names]
     if out is None:
-        return [np.empty(wanted, dtype) for wanted in shapes]
+        return [_fresh(wanted, dtype) for wanted in shapes]
     given = out if isinstance(out, tuple) else (out,)
     if len(given) != len(names):
         raise ValueError(f"out must be {len(names)} arrays, for {' and '.join(names)}")
@@ -393,11 +403,11 @@ def _apply(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
     flat = [
-        (r if direct else np.empty(r.shape, r.dtype)).reshape(*HEADS[name], points)
+        (r if direct else _fresh(r.shape, r.dtype)).reshape(*HEADS[name], points)
         for name, r in zip(names, results, strict=True)
     ]
     blocks = max(1, -(-points // BLOCK))
-    size = max(1, -(-points // blocks))  # blocks of one length
+    size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
@@ -444,11 +454,11 @@ def _numbers(array: Array) -> Any:
 
 def _scratch(count: int, like: Array) -> Array:
     """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = like.size + 16  # rows a power of two apart would share their places in the cache
+    length = (like.size // LINE + 1) * LINE
     needed = count * length * like.itemsize
     memory = getattr(KEPT, "memory", None)
     if memory is None or len(memory) < needed:
-        memory = KEPT.memory = np.empty(needed, np.uint8)
+        memory = KEPT.memory = _fresh((needed,), np.uint8)
     rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
     return rows[:, : like.size]
 
