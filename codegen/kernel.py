@@ -106,6 +106,18 @@ class Dyad:
 
 
 @dataclass(frozen=True)
+class Form:
+    """A hint: ``quantity`` is the quadratic form of the inputs, ``vector`` the linear rod's answer.
+
+    The one is a sum of products of the inputs and the other, for the most; a target may work on
+    several rows of them at a time.
+    """
+
+    quantity: str
+    vector: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Output:
     """Entry ``index`` of the output array ``array``; an empty index is the whole array."""
 
@@ -117,7 +129,7 @@ class Output:
 
 @dataclass(frozen=True)
 class Kernel:
-    """One public function: inputs, assignments in order, outputs, gauge, limit, dyad.
+    """One public function: inputs, assignments in order, outputs, gauge, limit, dyad, form.
 
     ``constants`` are assignments in the constants alone, evaluated once per set of constants.
     ``dropped`` names the guards that the scene's ranges made needless. ``plain`` is the same
@@ -133,6 +145,7 @@ class Kernel:
     limit: Limit | None = None
     constants: tuple[Assignment, ...] = ()
     dyad: Dyad | None = None
+    form: Form | None = None
     dropped: tuple[str, ...] = ()
     region: Region | None = None
     plain: Kernel | None = None
@@ -158,6 +171,11 @@ class Kernel:
                 body.insert(0, a)
                 wanted |= {s.name for s in a.expr.free_symbols}
         return tuple(body)
+
+    def vectors(self) -> frozenset[str]:
+        """The names in vectors of hints: passes leave them as they are."""
+        hints = (self.dyad, self.form)
+        return frozenset(name for hint in hints if hint for name in hint.vector)
 
     def sizes(self) -> tuple[str, ...]:
         """The constants, given and derived, whose sizes count for a `Region`: all but p."""
@@ -197,5 +215,7 @@ def validate(kernel: Kernel, known: frozenset[str]) -> None:
     if kernel.region is not None:
         defined.add(span.name)
         check("region", kernel.region.low + kernel.region.high + symbol(kernel.region.quantity))
+    if kernel.form is not None:
+        check("form", sp.Add(*map(symbol, (kernel.form.quantity, *kernel.form.vector))))
     for o in kernel.outputs:
         check(f"output {o.array}{list(o.index)}", o.expr)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from rodproof.codegen.kernel import Kernel
@@ -71,11 +71,11 @@ def step_text(step: str, scene: Scene) -> str:
     }[step]
 
 
-def square_text(quantity: str, results: tuple[str, ...]) -> str:
-    """What the plain bodies start from, and what they take besides the quantity."""
-    square = "Q*/gamma^2" if quantity == "overload" else "Q"
-    besides = " and ".join(f"the {name.replace('_', ' ')}" for name in results[:-1])
-    return f"{square} as a sum of squares{f', and {besides}' * bool(besides)}."
+def square_text(quantity: str, answer: Sequence[str]) -> str:
+    """What the plain bodies start from."""
+    square, what = ("Q*/gamma^2", "strains") if quantity == "overload" else ("Q", "loads")
+    where = " and ".join(answer)
+    return f"{square} as a sum of squares; the linear rod's {what} over gamma in {where}."
 
 
 def shape_text(head: tuple[int, ...], layout: str) -> str:

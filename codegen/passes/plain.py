@@ -15,7 +15,7 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
 from rodproof.codegen import lower
-from rodproof.codegen.kernel import Assignment, Dyad, Kernel, Region, span, symbol
+from rodproof.codegen.kernel import Assignment, Dyad, Form, Kernel, Region, span, symbol
 from rodproof.codegen.passes.stabilise import Pair, Rule, apply, e, factor, s, share, stretch, t
 from rodproof.derivations.symbols import (
     LOADS,
@@ -34,12 +34,14 @@ from rodproof.derivations.theory import constitutive as theory
 m1, m2, m3, n1, n2, n3 = LOADS
 u1, u2, u3, v1, v2, _ = STRAINS
 overload, excess, root, q = map(symbol, ("overload", "excess", "root", "q"))
-bend, turn, shear = map(symbol, ("bend", "turn", "shear"))
-extension, growth = symbol("extension"), symbol("growth")
-torque, hard = symbol("torque"), symbol("hard")
-r1, r2, r4, r5, r6 = map(symbol, ("r1", "r2", "r4", "r5", "r6"))
-r = (r1, r2, torque, r4, r5, r6)  # K eps, the linear rod's loads over gamma
+growth, hard = symbol("growth"), symbol("hard")
+#: The linear rod's strains over gamma at the loads, and its loads over gamma at the strains.
+w = tuple(map(symbol, ("w1", "w2", "twist", "w4", "w5", "extension")))
+r = tuple(map(symbol, ("r1", "r2", "torque", "r4", "r5", "tension")))
 h = tuple(symbol(f"h{i}") for i in range(1, 7))  # the loads over gamma
+w1, w2, twist, w4, w5, extension = w
+r1, r2, torque, r4, r5, tension = r
+turn, pull = symbol("turn"), symbol("pull")
 
 
 @dataclass(frozen=True)
@@ -48,37 +50,40 @@ class Plain:
 
     rule: Rule
     region: Region
+    form: Form
 
 
 # --- functions of loads ----------------------------------------------------------------------
 
-#: Weights of the squares in Q*/gamma^2, and the compliances of the linear rod. The extension of
-#: the linear rod carries the coupling: Q* is a sum of squares in it and the other loads.
+#: Compliances of the linear rod, all over gamma. The extension carries the coupling: Q* is a sum
+#: of squares in it and the other loads.
 LOAD_CONSTANTS = (
-    Assignment("bend_load", 1 / (alpha * gamma) ** 2),
-    Assignment("turn_load", 1 / (beta * gamma) ** 2),
-    Assignment("shear_load", 1 / (zeta * gamma) ** 2),
-    Assignment("slack", chiral_gap / beta**2),
-    Assignment("n3_extends", beta**2 / (chiral_gap * gamma)),
-    Assignment("m3_extends", iota / (chiral_gap * gamma)),
     Assignment("bend_soft", 1 / (alpha**2 * gamma)),
     Assignment("turn_soft", 1 / (beta**2 * gamma)),
     Assignment("shear_soft", 1 / (zeta**2 * gamma)),
+    Assignment("n3_extends", beta**2 / (chiral_gap * gamma)),
+    Assignment("m3_extends", iota / (chiral_gap * gamma)),
+    Assignment("slack_load", chiral_gap * gamma / beta**2),
     Assignment("untwist", iota / beta**2),
     Assignment("per_gamma", 1 / gamma),
 )
 
 OVERLOAD = (
-    Assignment("extension", symbol("n3_extends") * n3 - symbol("m3_extends") * m3),
+    Assignment(w1.name, symbol("bend_soft") * m1),
+    Assignment(w2.name, symbol("bend_soft") * m2),
+    Assignment(turn.name, symbol("turn_soft") * m3),
+    Assignment(w4.name, symbol("shear_soft") * n1),
+    Assignment(w5.name, symbol("shear_soft") * n2),
+    Assignment(extension.name, symbol("n3_extends") * n3 - symbol("m3_extends") * m3),
     Assignment(
-        "overload",
-        symbol("bend_load") * (m1**2 + m2**2)
-        + symbol("shear_load") * (n1**2 + n2**2)
-        + symbol("turn_load") * m3**2
-        + symbol("slack") * extension**2,
+        overload.name,
+        symbol("per_gamma")
+        * (m1 * w1 + m2 * w2 + m3 * turn + n1 * w4 + n2 * w5 + symbol("slack_load") * extension**2),
         ("qstar-form",),
     ),
+    Assignment(twist.name, turn - symbol("untwist") * extension),
 )
+LOAD_FORM = Form(overload.name, tuple(a.name for a in w))
 EXCESS = Assignment("excess", sp.exp(p / 2 * sp.log(overload)))
 ROOT = Assignment("root", sp.exp(-log1p(excess) / p))
 ROOT_SQUARE = Assignment("root", 1 / sp.sqrt(1 + overload))
@@ -91,20 +96,11 @@ BELOW_SQUARES = Region("overload", 1 / span, span)
 WHY = "twice as many operations where nothing is extreme"
 
 
-def _strain_pairs() -> tuple[Pair, ...]:
-    twisting = root * (symbol("turn_soft") * m3 - symbol("untwist") * extension)
-    plain = (bend * m1, bend * m2, twisting, shear * n1, shear * n2, root * extension)
-    return tuple((factor * row, new) for row, new in zip(e, plain, strict=True))
-
-
 def _strains(square: bool) -> Plain:
     radial = (ROOT_SQUARE,) if square else (EXCESS, ROOT)
-    soft = (
-        Assignment("bend", symbol("bend_soft") * root),
-        Assignment("shear", symbol("shear_soft") * root),
-    )
-    rule = Rule("strains", _strain_pairs(), (*OVERLOAD, *radial, *soft), WHY, LOAD_CONSTANTS)
-    return Plain(rule, BELOW_SQUARES if square else BELOW_POWERS)
+    pairs = tuple((factor * row, root * new) for row, new in zip(e, w, strict=True))
+    rule = Rule("strains", pairs, (*OVERLOAD, *radial), WHY, LOAD_CONSTANTS)
+    return Plain(rule, BELOW_SQUARES if square else BELOW_POWERS, LOAD_FORM)
 
 
 def _strains_and_gap(square: bool) -> Plain:
@@ -126,7 +122,7 @@ def _stiffness_at_loads(square: bool) -> Plain:
     )
     dyad = Dyad("stiff", "lift", tuple(k.name for k in h))
     rule = _rank_one("stiffness at loads", dyad, definitions, LOAD_CONSTANTS)
-    return Plain(rule, BELOW_SQUARES if square else BELOW_POWERS)
+    return Plain(rule, BELOW_SQUARES if square else BELOW_POWERS, LOAD_FORM)
 
 
 # --- functions of strains --------------------------------------------------------------------
@@ -142,23 +138,18 @@ STRAIN_CONSTANTS = (
     Assignment("untwist", iota / beta**2),
 )
 
-
-def _form() -> tuple[tuple[Assignment, ...], Pair, sp.Expr]:
-    """Definitions, Q in squares, and the tension; the torque and it are K's coupled rows."""
-    pull = symbol("slack_pull")
-    definitions = (
-        Assignment(torque.name, symbol("turning") * u3 + iota * stretch),
-        Assignment(pull.name, symbol("slack") * stretch),
-    )
-    squares = (
-        symbol("bending") * (u1**2 + u2**2)
-        + symbol("shearing") * (v1**2 + v2**2)
-        + symbol("per_turning") * torque**2
-        + pull * stretch
-    )
-    tension = symbol("untwist") * torque + pull
-    return definitions, (lower.from_rest(theory.quadratic_form()), squares), tension
-
+#: Q in squares; the torque and the tension are K's coupled rows.
+FORM = (
+    Assignment(r1.name, symbol("bending") * u1),
+    Assignment(r2.name, symbol("bending") * u2),
+    Assignment(torque.name, symbol("turning") * u3 + iota * stretch),
+    Assignment(r4.name, symbol("shearing") * v1),
+    Assignment(r5.name, symbol("shearing") * v2),
+    Assignment(pull.name, symbol("slack") * stretch),
+    Assignment(tension.name, symbol("untwist") * torque + pull),
+)
+SQUARES = u1 * r1 + u2 * r2 + symbol("per_turning") * torque**2 + v1 * r4 + v2 * r5 + stretch * pull
+STRAIN_FORM = Form(q.name, tuple(a.name for a in r))
 
 GROWTH = (
     Assignment("growth", 1 / expm1(-p / 2 * sp.log(q))),
@@ -172,52 +163,31 @@ ABOVE_POWERS = Region("q", sp.exp(sp.Max(-sp.log(span), -MOST)), NEAR)
 ABOVE_SQUARES = Region("q", 1 / span, NEAR)
 
 
+def _squares() -> Pair:
+    return lower.from_rest(theory.quadratic_form()), SQUARES
+
+
 def _loads(square: bool) -> Plain:
-    form, squares, tension = _form()
-    plain = (bend * u1, bend * u2, hard * torque, shear * v1, shear * v2, hard * tension)
-    pairs = tuple((factor * row, new) for row, new in zip(s, plain, strict=True))
-    stiff = (
-        Assignment("bend", symbol("bending") * hard),
-        Assignment("shear", symbol("shearing") * hard),
-    )
+    pairs = tuple((factor * row, hard * new) for row, new in zip(s, r, strict=True))
     radial = LEFT if square else GROWTH
-    rule = Rule("loads", (squares, *pairs), (*form, *radial, *stiff), WHY, STRAIN_CONSTANTS)
-    return Plain(rule, ABOVE_SQUARES if square else ABOVE_POWERS)
+    rule = Rule("loads", (_squares(), *pairs), (*FORM, *radial), WHY, STRAIN_CONSTANTS)
+    return Plain(rule, ABOVE_SQUARES if square else ABOVE_POWERS, STRAIN_FORM)
 
 
 def _stiffness(square: bool) -> Plain:
     """factor (K + growth K eps (K eps)^T/Q)."""
     weight = hard / symbol("left") if square else growth / q * hard
-    form, squares, tension = _form()
-    definitions = (
-        *form,
-        *(LEFT if square else GROWTH),
-        Assignment("steep", weight),
-        Assignment("r1", symbol("bending") * u1),
-        Assignment("r2", symbol("bending") * u2),
-        Assignment("r4", symbol("shearing") * v1),
-        Assignment("r5", symbol("shearing") * v2),
-        Assignment("r6", tension),
-    )
-    dyad = Dyad("stiff", "steep", tuple(k.name for k in r))
+    definitions = (*FORM, *(LEFT if square else GROWTH), Assignment("steep", weight))
+    dyad = Dyad("stiff", "steep", STRAIN_FORM.vector)
     rule = _rank_one("stiffness", dyad, definitions, STRAIN_CONSTANTS)
-    rule = replace(rule, pairs=(squares, *rule.pairs))
-    return Plain(rule, ABOVE_SQUARES if square else ABOVE_POWERS)
+    rule = replace(rule, pairs=(_squares(), *rule.pairs))
+    return Plain(rule, ABOVE_SQUARES if square else ABOVE_POWERS, STRAIN_FORM)
 
 
 def _loads_and_stiffness(square: bool) -> Plain:
     """The loads as they are by themselves, to the bit."""
-    loads, stiffness = _loads(square).rule, _stiffness(square)
-    _, *rows = loads.pairs
-    coupled = {hard * _form()[2]: hard * r6}
-    pairs = tuple((before, after.xreplace(coupled)) for before, after in rows)
-    radial = {hard * symbol("bending"): bend, hard * symbol("shearing"): shear}
-    radii = tuple(a for a in loads.definitions if a.name in ("bend", "shear"))
-    whole = replace(
-        stiffness.rule,
-        pairs=(*pairs, *((a, b.xreplace(radial)) for a, b in stiffness.rule.pairs)),
-        definitions=(*stiffness.rule.definitions, *radii),
-    )
+    (_, *rows), stiffness = _loads(square).rule.pairs, _stiffness(square)
+    whole = replace(stiffness.rule, pairs=(*rows, *stiffness.rule.pairs))
     return replace(stiffness, rule=whole)
 
 
@@ -230,16 +200,21 @@ def _rank_one(
     """Every entry as hard times K's, and the dyad."""
     rest = theory.stiffness_at_rest()
     moduli = {a.expr: a.symbol for a in STRAIN_CONSTANTS if a.expr.is_Pow}
+    stiff = (
+        Assignment("bend", symbol("bending") * hard),
+        Assignment("shear", symbol("shearing") * hard),
+    )
+    twice = {a.expr: a.symbol for a in stiff}
     pairs = tuple(
         (
             factor * (rest[i, j] + share * t[i] * t[j]),
-            hard * rest[i, j].xreplace(moduli) + dyad.term(i, j),
+            (hard * rest[i, j].xreplace(moduli)).xreplace(twice) + dyad.term(i, j),
         )
         for i in range(6)
         for j in range(i, 6)
     )
     added = tuple(a for a in STRAIN_CONSTANTS if a.symbol in moduli.values() and a not in constants)
-    return Rule(name, pairs, definitions, WHY, (*constants, *added), dyad)
+    return Rule(name, pairs, (*definitions, *stiff), WHY, (*constants, *added), dyad)
 
 
 PLAIN: dict[str, Callable[[bool], Plain]] = {
@@ -257,14 +232,26 @@ def plain(kernel: Kernel, *, square: bool) -> Kernel | None:
     if kernel.name not in PLAIN:
         return None
     found = PLAIN[kernel.name](square)
-    changed = replace(apply(found.rule, kernel), gauge=None, limit=None, region=found.region)
+    changed = replace(
+        apply(found.rule, kernel),
+        gauge=None,
+        limit=None,
+        region=found.region,
+        form=found.form,
+    )
     return replace(changed, body=tuple(replace(a, step="") for a in changed.body))
 
 
 def uncouple(kernel: Kernel) -> Kernel:
-    """A torque that comes of the twist alone squares as that: closer, and easier to enclose."""
-    alone = symbol("turning") * u3
+    """What comes of one component alone squares as that: closer, and easier to enclose."""
+    products = (
+        (torque, symbol("turning"), u3, symbol("per_turning")),
+        (extension, symbol("n3_extends"), n3, symbol("slack_load")),
+    )
+    body = {a.symbol: a.expr for a in kernel.body}
     squares = {
-        symbol("per_turning") * a.symbol**2: alone * u3 for a in kernel.body if a.expr == alone
+        weight * row**2: row * one
+        for row, ratio, one, weight in products
+        if body.get(row) == ratio * one
     }
     return kernel.rewrite(squares)

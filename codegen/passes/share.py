@@ -40,18 +40,20 @@ def drop_aliases(kernel: Kernel) -> Kernel:
     """An assignment that only renames another goes away.
 
     Not so where a step takes its input over, as where a modulus is one: the step may have been
-    given it at another scale. The dyad keeps its names, but nothing before the outputs uses them.
+    given it at another scale. Hints keep their names, but nothing before the outputs uses them;
+    what only a hint has another name for is called by that.
     """
-    of_dyad = {kernel.dyad.weight, *kernel.dyad.vector} if kernel.dyad else set[str]()
+    kernel = _called_as_hinted(kernel)
+    hinted = kernel.vectors() | ({kernel.dyad.weight} if kernel.dyad else set())
     given = {*kernel.inputs, *(a.name for a in kernel.body if not a.step)}
     taken_over = {a.name for a in kernel.body if a.step and str(a.expr) in given}
     renamed = {
-        a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol and a.name in of_dyad - taken_over
+        a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol and a.name in hinted - taken_over
     }
     if renamed:
         body = tuple(replace(a, expr=a.expr.xreplace(renamed)) for a in kernel.body)
         kernel = replace(kernel, body=body)
-    kept_names = of_dyad | taken_over
+    kept_names = hinted | taken_over
     aliases = {
         a.symbol: a.expr for a in kernel.body if a.expr.is_Symbol and a.name not in kept_names
     }
@@ -61,12 +63,27 @@ def drop_aliases(kernel: Kernel) -> Kernel:
     return drop_aliases(replace(kernel, body=kept).rewrite(aliases))
 
 
+def _called_as_hinted(kernel: Kernel) -> Kernel:
+    """Names that the form's vector only repeats give way to those in it."""
+    vector = kernel.form.vector if kernel.form else ()
+    own = {a.symbol for a in kernel.body if a.name not in kernel.vectors()}
+    taken = {a.expr: a.symbol for a in kernel.body if a.name in vector and a.expr in own}
+    if not taken:
+        return kernel
+    body = tuple(
+        replace(a, name=taken.get(a.symbol, a.symbol).name)
+        for a in kernel.body
+        if a.symbol not in taken.values()
+    )
+    return replace(kernel, body=body).rewrite(taken)
+
+
 def merge_equal(kernel: Kernel) -> Kernel:
     """Of the names of a step that stand for the same expression the first is kept."""
     first: dict[tuple[str, sp.Expr], sp.Symbol] = {}
     equal = {}
-    vector = kernel.dyad.vector if kernel.dyad else ()
-    for a in (a for a in kernel.body if a.name not in vector):
+    vectors = kernel.vectors()
+    for a in (a for a in kernel.body if a.name not in vectors):
         known = first.setdefault((a.step, a.expr), a.symbol)
         if known != a.symbol:
             equal[a.symbol] = known

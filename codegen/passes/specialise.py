@@ -69,7 +69,11 @@ def _outputs(kernel: Kernel, scene: Scene) -> Kernel:
     dyad = kernel.dyad
     if dyad is not None:
         dyad = replace(dyad, vector=tuple(dyad.vector[i] for i in at.loads))
-    return replace(kernel, outputs=outputs, dyad=dyad if len(at.loads) > 1 else None)
+    form = kernel.form
+    if form is not None:
+        answer = at.strains if kernel.inputs[0] in LOAD_NAMES else at.loads
+        form = replace(form, vector=tuple(form.vector[i] for i in answer))
+    return replace(kernel, outputs=outputs, dyad=dyad if len(at.loads) > 1 else None, form=form)
 
 
 def _kept(o: Output, at: Live) -> list[Output]:
@@ -92,8 +96,10 @@ def _placed(o: Output, component: int, parts: tuple[Group, ...]) -> Output:
 
 
 def drop_dead(kernel: Kernel) -> Kernel:
-    """Without the assignments that no output and no limit needs, constants included."""
+    """Without the assignments that no output, no limit and no form needs, constants included."""
     needed = {s.name for o in kernel.outputs for s in o.expr.free_symbols}
+    if kernel.form is not None:
+        needed |= {*kernel.form.vector}
     if kernel.limit is not None:
         needed.add(kernel.limit.quantity)
     if kernel.gauge is not None:

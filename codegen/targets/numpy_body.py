@@ -8,7 +8,7 @@ import sympy as sp
 
 from rodproof.codegen.kernel import Kernel, Output
 from rodproof.codegen.scene import LOAD_NAMES
-from rodproof.codegen.targets.lines import INDENT, WIDTH
+from rodproof.codegen.targets.lines import wrapped
 from rodproof.codegen.texts import FunctionText
 from rodproof.derivations.symbols import CONSTANTS
 
@@ -53,14 +53,18 @@ def rows_name(inputs: tuple[str, ...]) -> str:
     return "loads" if inputs[0] in LOAD_NAMES else "rest" if "stretch" in inputs else "strains"
 
 
-def heading(kernel: Kernel, name: str, text: FunctionText, answer: str) -> list[str]:
+def heading(name: str, text: FunctionText, answer: str) -> list[str]:
     """The first lines of a body."""
-    given = ", ".join(f"{a}: Array" for a in text.outputs)
-    taken = f"{rows_name(kernel.inputs)}: Rows, c: Constants"
-    line = f"def _{name}({taken}, {given}) -> {answer}:"
-    if len(line) <= WIDTH:
-        return [line]
-    return [f"def _{name}(", f"{INDENT}{taken}, {given}", f") -> {answer}:"]
+    given = [f"{array}: Array" for array in text.inputs]
+    taken = [f"{array}: Array" for array in text.outputs]
+    pieces = [", ".join([*given, "c: Constants", *taken])]
+    return wrapped(f"def _{name}(", pieces, f") -> {answer}:", ", ", "")
+
+
+def gathered(text: FunctionText) -> str:
+    """A list of the rows of all inputs."""
+    rows = ", ".join(f"*{name}" if head else name for name, head in text.inputs.items())
+    return f"[{rows}]"
 
 
 def unpacked(names: Sequence[str], rows: str) -> str:

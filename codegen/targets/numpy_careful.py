@@ -18,6 +18,7 @@ from rodproof.codegen.targets.lines import INDENT, grouped
 from rodproof.codegen.targets.numpy_body import (
     QUIET,
     beside,
+    gathered,
     heading,
     mirrored,
     packed_size,
@@ -117,8 +118,10 @@ def careful_body(
     printer = Printer(spelling, vector_places(kernel))
     lines = []
     if kernel.plain:
-        arguments = ", ".join([rows_name(kernel.inputs), "c", *text.outputs])
+        arguments = ", ".join([*text.inputs, "c", *text.outputs])
         lines += [f"{INDENT}if _{kernel.name}_plain({arguments}):", f"{INDENT * 2}return"]
+    rows = "strains" if _rest(kernel) else rows_name(kernel.inputs)
+    lines += [f"{INDENT}{rows} = {gathered(text)}"]
     lines += [INDENT + line for line in _rest(kernel)]
     steps_done, waiting = set[str](), list[Assignment]()
     for a in kernel.body:
@@ -144,7 +147,7 @@ def careful_body(
     lines += grouped(waiting, printer)
     lines += grouped([*_vectors(kernel)], printer)
     lines += [INDENT + line for line in _matrix(kernel, printer, packed)]
-    opening = heading(kernel, kernel.name, text, "None")
+    opening = heading(kernel.name, text, "None")
     return "\n".join([*opening, f'{INDENT}"""{text.equation}"""', *lines])
 
 

@@ -1,26 +1,23 @@
 """Prints plain kernels: bodies in place, one operation a line, and the constants they take.
 
-A plain body answers False, with nothing written to the results, where its kernel's region does
-not hold all points of the block. Its temporaries are rows of scratch that stay in the cache.
+A plain body answers False where its kernel's region does not hold all points of the block; the
+results are to be written again then. Its temporaries are rows of scratch that stay in the cache.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from string import Template
 
 import sympy as sp
 
 from rodproof.codegen.kernel import (
     SPAN_POWER,
-    Assignment,
     Kernel,
-    KernelError,
     Output,
     symbol,
 )
+from rodproof.codegen.scene import Scene
 from rodproof.codegen.targets.calls import Call, calls
 from rodproof.codegen.targets.lines import INDENT, wrapped
 from rodproof.codegen.targets.numpy_body import (
@@ -30,15 +27,21 @@ from rodproof.codegen.targets.numpy_body import (
     mirrored,
     packed_size,
     place_of,
-    rows_name,
-    spread,
-    taken,
-    unpacked,
-    vector_places,
+)
+from rodproof.codegen.targets.numpy_form import (
+    PRODUCTS,
+    Head,
+    Square,
+    answer_of,
+    beginning,
+    beginning_calls,
+    printer_of,
+    products_at,
+    rows_of,
 )
 from rodproof.codegen.targets.printer import Printer
 from rodproof.codegen.targets.rows import Printed, last_reads, print_calls
-from rodproof.codegen.texts import FunctionText, square_text
+from rodproof.codegen.texts import FunctionText
 from rodproof.derivations.symbols import CONSTANTS
 
 RECORD = Template('''\
@@ -63,14 +66,18 @@ def _rounded(ratio: Fraction) -> float:
 
 SCRATCH = '''\
 def _scratch(count: int, like: Array) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = (like.size // LINE + 1) * LINE
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it.
+
+    Short ones follow each other, to be worked on as one; of long ones NumPy would make copies.
+    """
+    points = like.shape[-1]
+    length = points if points < 512 else (points // LINE + 1) * LINE
     needed = count * length * like.itemsize
     memory = getattr(KEPT, "memory", None)
     if memory is None or len(memory) < needed:
         memory = KEPT.memory = _fresh((needed,), np.uint8)
     rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
-    return rows[:, : like.size]
+    return rows[:, :points]
 '''
 
 INSIDE = '''\
@@ -81,20 +88,8 @@ def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
 '''
 
 
-@dataclass(frozen=True)
-class Square:
-    """What plain kernels share: the assignments down to their region's quantity, as printed.
-
-    ``results`` are what the bodies take from it, the quantity last; ``first`` is the row of
-    scratch from which on bodies may keep a vector.
-    """
-
-    quantity: str
-    inputs: tuple[str, ...]
-    body: tuple[Assignment, ...]
-    results: tuple[str, ...]
-    printed: Printed
-    first: int
+#: Arrays of scratch: the linear rod's answer, and the dyad's vector where that is another one.
+VECTOR, ALONG = "w", "h"
 
 
 def plain_kernels(kernels: tuple[Kernel, ...]) -> tuple[Kernel, ...]:
@@ -107,119 +102,98 @@ def alone(kernel: Kernel) -> bool:
     return not any(a.step for a in kernel.body)
 
 
-def squares_of(kernels: tuple[Kernel, ...], constants: dict[str, str]) -> dict[str, Square]:
-    """The shared beginnings of the plain kernels, by the quantity of their regions."""
-    plain = plain_kernels(kernels)
-    quantities = dict.fromkeys(k.region.quantity for k in plain if k.region)
-    return {name: _square(name, plain, constants) for name in quantities}
-
-
-def _square(quantity: str, plain: tuple[Kernel, ...], constants: dict[str, str]) -> Square:
-    users = [k for k in plain if k.region and k.region.quantity == quantity]
-    body, *others = (kernel.down_to(quantity) for kernel in users)
-    vectors = {k.dyad.vector for k in users if k.dyad}
-    if any({*other} != {*body} for other in others) or len(vectors) > 1:
-        raise KernelError(f"the plain kernels disagree on {quantity} or on what goes with it")
-    used = set().union(*(_used_after(body, kernel) for kernel in users))
-    results = (*(a.name for a in body if a.name in used and a.name != quantity), quantity)
-    made = {a.name for a in body}
-    work = [c for a in body for c in calls(a.name, a.expr, _printer(users[0], constants))]
-    first = print_calls(work, {}, kept=results).rows
-    fixed = {n: first + k for vector in vectors for k, n in enumerate(vector) if n in made}
-    printed = print_calls(work, {}, fixed=fixed, kept=results)
-    return Square(quantity, users[0].inputs, body, results, printed, first)
-
-
-def _used_after(body: tuple[Assignment, ...], kernel: Kernel) -> set[str]:
-    """What the kernel takes from this beginning of its own."""
-    made = {a.name for a in body}
-    later = [a.expr for a in kernel.body if a.name not in made] + [o.expr for o in kernel.outputs]
-    used = {s.name for e in later for s in e.free_symbols}
-    return made & (used | set(kernel.dyad.vector if kernel.dyad else ()))
-
-
-def square_function(square: Square) -> str:
-    """The shared beginning as a private function, in place."""
-    results = ", ".join(square.results)
-    kind = "Rows" if len(square.results) > 1 else "Array"
-    rows = rows_name(square.inputs)
-    lines = [f"def _{square.quantity}({rows}: Rows, c: Constants, s: Rows) -> {kind}:"]
-    lines += [
-        f'{INDENT}"""{square_text(square.quantity, square.results)}"""',
-        f"{INDENT}k = c.plain",
-    ]
-    lines += [INDENT + unpacked(square.inputs, rows)]
-    lines += [INDENT + line for line in square.printed.lines]
-    return "\n".join([*lines, f"{INDENT}return {results}"])
-
-
-def _printer(kernel: Kernel, constants: dict[str, str]) -> Printer:
-    """How numbers are written: constants of a kernel beside another have a record of their own."""
-    own = {a.name: f"k.{a.name}" for a in kernel.constants} if kernel.region else {}
-    return Printer({**constants, **own})
-
-
 def plain_body(
-    kernel: Kernel, text: FunctionText, constants: dict[str, str], squares: Mapping[str, Square]
+    kernel: Kernel,
+    text: FunctionText,
+    constants: dict[str, str],
+    squares: Mapping[str, Square],
+    scene: Scene,
 ) -> str:
-    """The body of a plain kernel, one operation a line; ``constants`` says how they are written.
+    """The body of a plain kernel; ``constants`` says how they are written.
 
-    Beside another kernel it is told apart by its region, and by what it is called.
+    Beside another kernel it is told apart by its region, and by what it is called. The linear rod's
+    answer is in the results, or in so many rows of scratch if others than these are made of it.
     """
-    region, rows = kernel.region, rows_name(kernel.inputs)
-    square = squares[region.quantity] if region else None
-    printed, held = _printed(kernel, square, _printer(kernel, constants), packed_size(kernel, text))
-    count = max(printed.rows, square.printed.rows if square else 0)
-    own = " ".join(printed.lines)
-    used = [name if re.search(rf"\b{name}\b", own) else "_" for name in kernel.inputs]
-    lines = [unpacked(used, rows)] if {*used} != {"_"} else []
-    lines += [f"work = _scratch({count}, {rows}[0])", "s = [*work]"]
-    if kernel.dyad:
-        first, vector = square.first if square else 0, kernel.dyad.vector
-        lines += [f"{vector[0][0]} = work[{first}:{first + len(vector)}]"]
-    lines += _begun(square, rows, held) if square else []
-    lines = (
-        ["k = c.plain", *lines, *printed.lines, "return True"]
-        if region
-        else [*lines, *printed.lines]
-    )
+    assert kernel.form is not None
+    square = squares[kernel.form.quantity] if kernel.region else None
+    answer = answer_of(kernel, scene)
+    others = (o.expr for o in kernel.outputs if o.array not in answer)
+    read = {s.name for expr in others for s in expr.free_symbols} & {*kernel.form.vector}
+    size = len(kernel.form.vector) if read or not {*answer} <= {*text.outputs} else 0
+    printed, views = _printed(kernel, text, square, constants, answer, size)
+    count = max(printed.rows, square.printed.rows if square else 0) + size
+    lines = [f"s = _scratch({count}, {next(iter(text.inputs))})", *views]
+    lines += _begun(square, size) if square else []
+    lines += printed.lines
+    lines = ["k = c.plain", *lines, "return True"] if square else lines
     return "\n".join([*_opening(kernel, text), *(INDENT + line for line in lines)])
 
 
 def _opening(kernel: Kernel, text: FunctionText) -> list[str]:
     """The heading and what it says."""
     if not kernel.region:
-        return [*heading(kernel, kernel.name, text, "None"), f'{INDENT}"""{text.equation}"""']
+        return [*heading(kernel.name, text, "None"), f'{INDENT}"""{text.equation}"""']
     words = f"`_{kernel.name}` where nothing is extreme; else False."
-    return [*heading(kernel, f"{kernel.name}_plain", text, "bool"), f'{INDENT}"""{words}"""']
+    return [*heading(f"{kernel.name}_plain", text, "bool"), f'{INDENT}"""{words}"""']
 
 
-def _begun(square: Square, rows: str, held: Mapping[str, int]) -> list[str]:
+def _begun(square: Square, size: int) -> list[str]:
     """The call of the shared beginning, and the test of the region."""
-    left = taken(square.results, (*held, square.quantity))
+    name, first, answer = square.quantity, 0, list[str]()
+    for array, head in square.answer.items():
+        last = first + (head[0] if head else 1)
+        part = f"{first or ''}:{last if last < size else ''}" if head else f"{first}"
+        answer.append(f"{VECTOR}[{part}]" if size else array)
+        first = last
+    answer = [VECTOR] if answer == [f"{VECTOR}[:]"] else answer
+    given = ", ".join([*square.given, "c", *answer, "s"])
     return [
         QUIET,
-        f"{INDENT}{left} = _{square.quantity}({rows}, c, s)",
-        f"if not _inside({square.quantity}, k.within_{square.quantity}):",
+        f"{INDENT}{name} = _{name}({given})",
+        f"if not _inside({name}, k.within_{name}):",
         f"{INDENT}return False",
     ]
 
 
 def _printed(
-    kernel: Kernel, square: Square | None, printer: Printer, packed: int
-) -> tuple[Printed, Mapping[str, int]]:
-    """What comes after the shared beginning, and the rows of what it takes from there."""
-    dyad = kernel.dyad
-    made = {a.name for a in square.body} if square else set[str]()
-    work = _arranged(kernel, printer, packed, made)
+    kernel: Kernel,
+    text: FunctionText,
+    square: Square | None,
+    constants: dict[str, str],
+    answer: Mapping[str, Head],
+    size: int,
+) -> tuple[Printed, list[str]]:
+    """What comes after the shared beginning, or all of it, and the lines that part the scratch.
+
+    The linear rod's answer is in the results, or in ``size`` rows of scratch.
+    """
+    printer, packed = printer_of(kernel, constants), packed_size(kernel, text)
+    dyad, form = kernel.dyad, kernel.form
+    assert form is not None
+    places, lengths = rows_of(text.inputs, kernel.inputs)
+    of_vector, own = rows_of({VECTOR: (size,)} if size else answer, form.vector)
+    places |= {place_of(o, packed): place_of(o, packed) for o in kernel.outputs} | of_vector
+    lengths |= {a: head[0] for a, head in text.outputs.items() if len(head) == 1} | own
+    views = [f"{VECTOR}, s = s[:{size}], s[{size}:]"] if size else []
+    done, work, first = (square.body if square else beginning(kernel)), list[Call](), 0
+    if not square:
+        work, first = beginning_calls(kernel, done, printer, places)
+        places, lengths = places | products_at(first), lengths | {PRODUCTS: first}
+        views += [f"{PRODUCTS} = s[:{first}]"] if first else []
+    taken = {*range(first)}
+    if dyad and dyad.vector != form.vector:
+        first = square.printed.row[form.quantity] + 1 if square else first
+        last = first + len(dyad.vector)
+        places |= {n: f"{ALONG}[{k}]" for k, n in enumerate(dyad.vector)}
+        lengths |= {ALONG: len(dyad.vector)}
+        views += [f"{ALONG} = s[{first}:{last}]"]
+        taken |= {*range(first, last)}
+    work += _arranged(kernel, printer, packed, {a.name for a in done})
     rows = square.printed.row if square else {}
-    held = {name: row for name, row in rows.items() if name in last_reads(work)}
-    places = {place_of(o, packed): place_of(o, packed) for o in kernel.outputs}
-    places |= {n: place for n, place in vector_places(kernel).items() if n not in made}
-    first = square.first if square else 0
-    fixed = {name: first + k for k, name in enumerate(dyad.vector)} if dyad else {}
+    held = {n: rows[n] for n in (form.quantity,) if n in rows and n in last_reads(work)}
     opened = [place_of(o, packed) for o in kernel.outputs if dyad and o.array == dyad.array]
-    return print_calls(work, held, places=places, fixed=fixed, opened=opened), held
+    printed = print_calls(work, held, places=places, lengths=lengths, taken=taken, opened=opened)
+    return printed, views
 
 
 def _arranged(kernel: Kernel, printer: Printer, packed: int, known: set[str]) -> list[Call]:
@@ -245,7 +219,9 @@ def _arranged(kernel: Kernel, printer: Printer, packed: int, known: set[str]) ->
     if dyad:
         settle(map(symbol, (dyad.weight, *dyad.vector)))
         reads = frozenset({dyad.weight, *dyad.vector})
-        work += [Call("", "", (line,), reads) for line in spread(kernel)]
+        along = VECTOR if kernel.form and dyad.vector == kernel.form.vector else ALONG
+        line = f"_spread({dyad.array}, {dyad.weight}, {along})"
+        work.append(Call("", "", (line,), reads))
         for extra, entries in beside(kernel).items():
             settle([extra])
             work.extend(_added(extra, entries, printer, packed))

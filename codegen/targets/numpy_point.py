@@ -140,7 +140,8 @@ def _hoisted(kernel: Kernel) -> Kernel:
         else:
             body.append(replace(a, expr=a.expr.xreplace(changed)))
     outputs = tuple(replace(o, expr=o.expr.xreplace(changed)) for o in kernel.plain.outputs)
-    return scalar.hoisted(drop_dead(replace(kernel.plain, body=tuple(body), outputs=outputs)))
+    plain = replace(kernel.plain, body=tuple(body), outputs=outputs, form=None)
+    return scalar.hoisted(drop_dead(plain))
 
 
 def point_constants(kernels: tuple[Kernel, ...]) -> list[str]:

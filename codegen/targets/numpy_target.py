@@ -36,17 +36,9 @@ from rodproof.codegen.targets.numpy_constants import (
     print_constants,
     used_constants,
 )
+from rodproof.codegen.targets.numpy_form import Square, square_function, squares_of
 from rodproof.codegen.targets.numpy_header import header
-from rodproof.codegen.targets.numpy_plain import (
-    INSIDE,
-    SCRATCH,
-    Square,
-    alone,
-    plain_body,
-    plain_record,
-    square_function,
-    squares_of,
-)
+from rodproof.codegen.targets.numpy_plain import INSIDE, SCRATCH, alone, plain_body, plain_record
 from rodproof.codegen.targets.printer import Printer
 from rodproof.codegen.texts import FunctionText, function_text
 
@@ -71,8 +63,8 @@ def print_module(
     words = {kernel.name: function_text(kernel, scene) for kernel in kernels}
     named = spelling(kernels)
     printer = Printer(named)
-    steps, squares = steps_of(kernels, printer), squares_of(kernels, named)
-    bodies = {k.name: _bodies(k, steps, squares, words[k.name], named) for k in kernels}
+    steps, squares = steps_of(kernels, printer), squares_of(kernels, words, named, scene)
+    bodies = {k.name: _bodies(k, steps, squares, words[k.name], named, scene) for k in kernels}
     for k in kernels:
         bodies[k.name].append(one.point(k, words[k.name], scene, named, kernels))
     own = "\n".join(body for several in bodies.values() for body in several)
@@ -106,11 +98,12 @@ def _bodies(
     squares: Mapping[str, Square],
     text: FunctionText,
     named: dict[str, str],
+    scene: Scene,
 ) -> list[str]:
     """The private functions of a kernel: a plain one, and one that always holds."""
     if alone(kernel):
-        return [plain_body(kernel, text, named, squares)]
-    plain = [plain_body(kernel.plain, text, named, squares)] if kernel.plain else []
+        return [plain_body(kernel, text, named, squares, scene)]
+    plain = [plain_body(kernel.plain, text, named, squares, scene)] if kernel.plain else []
     return [*plain, careful_body(kernel, steps, named, text)]
 
 

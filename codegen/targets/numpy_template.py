@@ -306,20 +306,20 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = out is None or all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
-    flat = [
-        (r if direct else _fresh(r.shape, r.dtype)).reshape(*HEADS[name], points)
-        for name, r in zip(names, results, strict=True)
-    ]
+    given = arrays
+    flat = results if direct else [_fresh(r.shape, r.dtype) for r in results]
+    if len(shape) != 1:
+        given = [a.reshape(*HEADS[name], points) for name, a in zip(inputs, given, strict=True)]
+        flat = [r.reshape(*HEADS[name], points) for name, r in zip(names, flat, strict=True)]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            rows = [row for a in given for row in a[:, part]]
+            block = [a[..., part] for a in given]
 $run
     if not direct:
         for result, values in zip(results, flat, strict=True):
@@ -337,7 +337,7 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    given = [array.reshape(-1, max(points, 1)) for array in arrays]
+    given = [a.reshape(*HEADS[name], points) for name, a in zip(inputs, arrays, strict=True)]
     direct = out is None or all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
@@ -347,22 +347,24 @@ def _apply(
     ]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
-    taken = [_fresh((len(array), size), array.dtype) for array in given]
+    taken = [_fresh((*a.shape[:-1], size), a.dtype) for a in given]
     made = [_fresh((*HEADS[name], size), arrays[0].dtype) for name in names]
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            rows = [row for block in taken for row in block[:, : part.stop - start]]
-            for row, values in zip(rows, (v for a in given for v in a[:, part]), strict=True):
-                row[...] = values
-            flat = [block[..., : part.stop - start] for block in made]
+            block = [array[..., : part.stop - start] for array in taken]
+            for rows, values in zip(block, given, strict=True):
+                # a row at a time: a vector's axis is too short to loop over
+                for row, value in zip(np.atleast_2d(rows), np.atleast_2d(values), strict=True):
+                    row[...] = value[part]
+            flat = [array[..., : part.stop - start] for array in made]
 $run
-            for values, block in zip(whole, flat, strict=True):
-                if block.ndim == 2:  # a row at a time: a vector's axis is too short to loop over
-                    for k, row in enumerate(block):
+            for values, array in zip(whole, flat, strict=True):
+                if array.ndim == 2:
+                    for k, row in enumerate(array):
                         values[part, k] = row
                 else:
-                    values[part] = np.moveaxis(block, -1, 0)
+                    values[part] = np.moveaxis(array, -1, 0)
     if not direct:
         for result, values in zip(results, whole, strict=True):
             result[...] = values.reshape(result.shape)
@@ -372,9 +374,10 @@ $run
 #: The call of the body for each policy at the limit and layout, by how an output is written to.
 RUN_RAISE = Template("""\
             try:
-                body(rows, c, *$outputs)
+                body(*block, c, *$outputs)
             except _PastLimit:
-                raise _past_limit([row for a in given for row in a], c, shape) from None""")
+                rows = [row for a in given for row in np.atleast_2d(a)]
+                raise _past_limit(rows, c, shape) from None""")
 RUN = Template("""\
-            body(rows, c, *$outputs)""")
+            body(*block, c, *$outputs)""")
 OUTPUTS = {"first": "(array[..., part] for array in flat)", "last": "flat"}

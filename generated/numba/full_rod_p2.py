@@ -16,15 +16,15 @@ reading; wstar-gradient Section 3.1 proved.
 Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
-    strains                34    0    0    5
-    loads                  33    0    0    8
+    strains                34    0    0    9
+    loads                  33    0    0   11
     stored_energy          30    0    0   12
     complementary_energy   37    0    0   12
-    stiffness              87    0    0   12
-    loads_and_stiffness    91    0    0   14
+    stiffness              83    0    0   14
+    loads_and_stiffness    89    0    0   14
     compliance            159    0    0   39
-    strains_and_gap        36    0    0    5
-    stiffness_at_loads     84    0    0    9
+    strains_and_gap        36    0    0    9
+    stiffness_at_loads     88    0    0   17
 """
 
 from __future__ import annotations
@@ -94,22 +94,20 @@ class Values(NamedTuple):
 class Ordinary(NamedTuple):
     """Constants for points where nothing is extreme, and the squares between which they hold."""
 
-    bend_load: float
-    turn_load: float
-    shear_load: float
-    slack: float
-    n3_extends: float
-    m3_extends: float
     bend_soft: float
     turn_soft: float
     shear_soft: float
+    n3_extends: float
+    m3_extends: float
+    slack_load: float
     untwist: float
+    per_gamma: float
     bending: float
     turning: float
     shearing: float
+    slack: float
     per_turning: float
     stretching: float
-    per_gamma: float
     least_overload: float
     most_overload: float
     least_q: float
@@ -123,22 +121,20 @@ class Plain:
         alpha, beta, gamma, zeta, eta, iota = (
             Fraction(v) for v in (c.alpha, c.beta, c.gamma, c.zeta, c.eta, c.iota)
         )
-        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
-        self.turn_load = _rounded(1 / beta**2 / gamma**2)
-        self.shear_load = _rounded(1 / gamma**2 / zeta**2)
-        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
-        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
-        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
         self.bend_soft = _rounded(1 / alpha**2 / gamma)
         self.turn_soft = _rounded(1 / beta**2 / gamma)
         self.shear_soft = _rounded(1 / gamma / zeta**2)
+        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
+        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
+        self.slack_load = _rounded(gamma * (beta**2 * eta**2 - iota**2) / beta**2)
         self.untwist = _rounded(iota / beta**2)
+        self.per_gamma = _rounded(1 / gamma)
         self.bending = _rounded(alpha**2)
         self.turning = _rounded(beta**2)
         self.shearing = _rounded(zeta**2)
+        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
         self.per_turning = _rounded(1 / beta**2)
         self.stretching = _rounded(eta**2)
-        self.per_gamma = _rounded(1 / gamma)
         used = [v for v in (c.gamma, c.iota, *vars(self).values()) if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
         self.within_q: dict[Any, tuple[float, float]] = {}
@@ -248,10 +244,9 @@ class Constants:
         """What loops take: plain tuples are handed over sooner."""
         k = self.plain
         return (
-            *self.values, k.bend_load, k.turn_load, k.shear_load, k.slack, k.n3_extends,
-            k.m3_extends, k.bend_soft, k.turn_soft, k.shear_soft, k.untwist, k.bending, k.turning,
-            k.shearing, k.per_turning, k.stretching, k.per_gamma, *k.within_overload[DOUBLE],
-            *k.within_q[DOUBLE],
+            *self.values, k.bend_soft, k.turn_soft, k.shear_soft, k.n3_extends, k.m3_extends,
+            k.slack_load, k.untwist, k.per_gamma, k.bending, k.turning, k.shearing, k.slack,
+            k.per_turning, k.stretching, *k.within_overload[DOUBLE], *k.within_q[DOUBLE],
         )
 
 
@@ -382,17 +377,18 @@ def _strains_plain(
     m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, k: Ordinary
 ) -> Any:
     """`_strains` where nothing is extreme."""
+    w1, w2, turn, w4 = k.bend_soft * m1, k.bend_soft * m2, k.turn_soft * m3, k.shear_soft * n1
+    w5 = k.shear_soft * n2
     extension = k.n3_extends * n3 - k.m3_extends * m3
     overload = (
-        k.bend_load * (m1 * m1 + m2 * m2) + k.slack * extension * extension + k.turn_load * m3 * m3
-        + k.shear_load * (n1 * n1 + n2 * n2)
+        k.per_gamma
+        * (k.slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn + n1 * w4 + n2 * w5)
     )
+    twist = turn - k.untwist * extension
     root = 1 / sqrt(overload + 1)
-    bend, shear = k.bend_soft * root, k.shear_soft * root
     return (
         (
-            bend * m1, bend * m2, root * (k.turn_soft * m3 - k.untwist * extension), n1 * shear,
-            n2 * shear, extension * root + 1,
+            root * w1, root * w2, root * twist, root * w4, root * w5, extension * root + 1,
         ),
         overload,
     )
@@ -493,22 +489,14 @@ def _loads_plain(
 ) -> Any:
     """`_loads` where nothing is extreme."""
     stretch = v3 - 1
+    r1, r2, r4, r5 = k.bending * u1, k.bending * u2, k.shearing * v1, k.shearing * v2
     torque = c.iota * stretch + k.turning * u3
-    slack_pull = k.slack * stretch
-    q = (
-        k.bending * (u1 * u1 + u2 * u2) + k.per_turning * torque * torque
-        + k.shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
-    )
+    pull = k.slack * stretch
+    tension = pull + k.untwist * torque
+    q = k.per_turning * torque * torque + pull * stretch + r1 * u1 + r2 * u2 + r4 * v1 + r5 * v2
     left = 1 - q
     hard = c.gamma / sqrt(left)
-    bend, shear = k.bending * hard, k.shearing * hard
-    return (
-        (
-            bend * u1, bend * u2, hard * torque, shear * v1, shear * v2,
-            hard * (slack_pull + k.untwist * torque),
-        ),
-        q,
-    )
+    return (hard * r1, hard * r2, hard * torque, hard * r4, hard * r5, hard * tension), q
 
 
 @over_points
@@ -769,28 +757,25 @@ def _stiffness_plain(
 ) -> Any:
     """`_stiffness` where nothing is extreme."""
     stretch = v3 - 1
+    r1, r2, r4, r5 = k.bending * u1, k.bending * u2, k.shearing * v1, k.shearing * v2
     torque = c.iota * stretch + k.turning * u3
-    slack_pull, r1, r2, r4 = k.slack * stretch, k.bending * u1, k.bending * u2, k.shearing * v1
-    r5 = k.shearing * v2
-    r6 = slack_pull + k.untwist * torque
-    q = (
-        k.bending * (u1 * u1 + u2 * u2) + k.per_turning * torque * torque
-        + k.shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
-    )
+    pull = k.slack * stretch
+    tension = pull + k.untwist * torque
+    q = k.per_turning * torque * torque + pull * stretch + r1 * u1 + r2 * u2 + r4 * v1 + r5 * v2
     left = 1 - q
     hard = c.gamma / sqrt(left)
     steep = hard / left
-    steep_1, steep_2, steep_3, steep_4 = r1 * steep, r2 * steep, steep * torque, r4 * steep
-    steep_5, steep_6 = r5 * steep, r6 * steep
-    k11, k12, k13 = k.bending * hard + r1 * steep_1, r2 * steep_1, steep_1 * torque
-    k14, k15, k16 = r4 * steep_1, r5 * steep_1, r6 * steep_1
-    k22, k23, k24 = k.bending * hard + r2 * steep_2, steep_2 * torque, r4 * steep_2
-    k25, k26 = r5 * steep_2, r6 * steep_2
+    bend, shear, steep_1, steep_2 = k.bending * hard, k.shearing * hard, r1 * steep, r2 * steep
+    steep_3, steep_4, steep_5, steep_6 = steep * torque, r4 * steep, r5 * steep, steep * tension
+    k11, k12, k13, k14 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque, r4 * steep_1
+    k15, k16 = r5 * steep_1, steep_1 * tension
+    k22, k23, k24, k25 = bend + r2 * steep_2, steep_2 * torque, r4 * steep_2, r5 * steep_2
+    k26 = steep_2 * tension
     k33, k34, k35 = k.turning * hard + steep_3 * torque, r4 * steep_3, r5 * steep_3
-    k36 = c.iota * hard + r6 * steep_3
-    k44, k45, k46 = k.shearing * hard + r4 * steep_4, r5 * steep_4, r6 * steep_4
-    k55, k56 = k.shearing * hard + r5 * steep_5, r6 * steep_5
-    k66 = k.stretching * hard + r6 * steep_6
+    k36 = c.iota * hard + steep_3 * tension
+    k44, k45, k46 = r4 * steep_4 + shear, r5 * steep_4, steep_4 * tension
+    k55, k56 = r5 * steep_5 + shear, steep_5 * tension
+    k66 = k.stretching * hard + steep_6 * tension
     return (
         (
             k11, k12, k13, k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35, k36, k44, k45,
@@ -909,33 +894,30 @@ def _loads_and_stiffness_plain(
 ) -> Any:
     """`_loads_and_stiffness` where nothing is extreme."""
     stretch = v3 - 1
+    r1, r2, r4, r5 = k.bending * u1, k.bending * u2, k.shearing * v1, k.shearing * v2
     torque = c.iota * stretch + k.turning * u3
-    slack_pull, r1, r2, r4 = k.slack * stretch, k.bending * u1, k.bending * u2, k.shearing * v1
-    r5 = k.shearing * v2
-    r6 = slack_pull + k.untwist * torque
-    q = (
-        k.bending * (u1 * u1 + u2 * u2) + k.per_turning * torque * torque
-        + k.shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
-    )
+    pull = k.slack * stretch
+    tension = pull + k.untwist * torque
+    q = k.per_turning * torque * torque + pull * stretch + r1 * u1 + r2 * u2 + r4 * v1 + r5 * v2
     left = 1 - q
     hard = c.gamma / sqrt(left)
     steep = hard / left
     bend, shear, steep_1, steep_2 = k.bending * hard, k.shearing * hard, r1 * steep, r2 * steep
-    steep_3, steep_4, steep_5, steep_6 = steep * torque, r4 * steep, r5 * steep, r6 * steep
+    steep_3, steep_4, steep_5, steep_6 = steep * torque, r4 * steep, r5 * steep, steep * tension
     k11, k12, k13, k14 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque, r4 * steep_1
-    k15, k16 = r5 * steep_1, r6 * steep_1
+    k15, k16 = r5 * steep_1, steep_1 * tension
     k22, k23, k24, k25 = bend + r2 * steep_2, steep_2 * torque, r4 * steep_2, r5 * steep_2
-    k26 = r6 * steep_2
+    k26 = steep_2 * tension
     k33, k34, k35 = k.turning * hard + steep_3 * torque, r4 * steep_3, r5 * steep_3
-    k36 = c.iota * hard + r6 * steep_3
-    k44, k45, k46 = r4 * steep_4 + shear, r5 * steep_4, r6 * steep_4
-    k55, k56 = r5 * steep_5 + shear, r6 * steep_5
-    k66 = k.stretching * hard + r6 * steep_6
+    k36 = c.iota * hard + steep_3 * tension
+    k44, k45, k46 = r4 * steep_4 + shear, r5 * steep_4, steep_4 * tension
+    k55, k56 = r5 * steep_5 + shear, steep_5 * tension
+    k66 = k.stretching * hard + steep_6 * tension
     return (
         (
-            bend * u1, bend * u2, hard * torque, shear * v1, shear * v2, hard * r6, k11, k12, k13,
-            k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35, k36, k44, k45, k46, k55, k56,
-            k66,
+            hard * r1, hard * r2, hard * torque, hard * r4, hard * r5, hard * tension, k11, k12,
+            k13, k14, k15, k16, k22, k23, k24, k25, k26, k33, k34, k35, k36, k44, k45, k46, k55,
+            k56, k66,
         ),
         q,
     )
@@ -1172,17 +1154,19 @@ def _strains_and_gap_plain(
     m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, k: Ordinary
 ) -> Any:
     """`_strains_and_gap` where nothing is extreme."""
+    w1, w2, turn, w4 = k.bend_soft * m1, k.bend_soft * m2, k.turn_soft * m3, k.shear_soft * n1
+    w5 = k.shear_soft * n2
     extension = k.n3_extends * n3 - k.m3_extends * m3
     overload = (
-        k.bend_load * (m1 * m1 + m2 * m2) + k.slack * extension * extension + k.turn_load * m3 * m3
-        + k.shear_load * (n1 * n1 + n2 * n2)
+        k.per_gamma
+        * (k.slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn + n1 * w4 + n2 * w5)
     )
+    twist = turn - k.untwist * extension
     root = 1 / sqrt(overload + 1)
-    bend, shear = k.bend_soft * root, k.shear_soft * root
     return (
         (
-            bend * m1, bend * m2, root * (k.turn_soft * m3 - k.untwist * extension), n1 * shear,
-            n2 * shear, extension * root + 1, 1 / (overload + 1),
+            root * w1, root * w2, root * twist, root * w4, root * w5, extension * root + 1,
+            1 / (overload + 1),
         ),
         overload,
     )
@@ -1301,24 +1285,25 @@ def _stiffness_at_loads_plain(
     m1: float, m2: float, m3: float, n1: float, n2: float, n3: float, c: Values, k: Ordinary
 ) -> Any:
     """`_stiffness_at_loads` where nothing is extreme."""
+    w1, w2, turn, w4 = k.bend_soft * m1, k.bend_soft * m2, k.turn_soft * m3, k.shear_soft * n1
+    w5, h1, h2, h3 = k.shear_soft * n2, k.per_gamma * m1, k.per_gamma * m2, k.per_gamma * m3
     extension = k.n3_extends * n3 - k.m3_extends * m3
     overload = (
-        k.bend_load * (m1 * m1 + m2 * m2) + k.slack * extension * extension + k.turn_load * m3 * m3
-        + k.shear_load * (n1 * n1 + n2 * n2)
+        k.per_gamma
+        * (k.slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn + n1 * w4 + n2 * w5)
     )
     hard = c.gamma * sqrt(overload + 1)
     lift = hard
-    h1, h2, h3, h4 = k.per_gamma * m1, k.per_gamma * m2, k.per_gamma * m3, k.per_gamma * n1
-    h5, h6, lift_1, lift_2 = k.per_gamma * n2, k.per_gamma * n3, h1 * lift, h2 * lift
-    lift_3, lift_4, lift_5, lift_6 = h3 * lift, h4 * lift, h5 * lift, h6 * lift
-    k11, k12, k13, k14 = k.bending * hard + h1 * lift_1, h2 * lift_1, h3 * lift_1, h4 * lift_1
-    k15, k16 = h5 * lift_1, h6 * lift_1
-    k22, k23, k24, k25 = k.bending * hard + h2 * lift_2, h3 * lift_2, h4 * lift_2, h5 * lift_2
-    k26 = h6 * lift_2
+    h4, h5, h6, bend = k.per_gamma * n1, k.per_gamma * n2, k.per_gamma * n3, k.bending * hard
+    shear, lift_1, lift_2, lift_3 = k.shearing * hard, h1 * lift, h2 * lift, h3 * lift
+    lift_4, lift_5, lift_6 = h4 * lift, h5 * lift, h6 * lift
+    k11, k12, k13, k14, k15 = bend + h1 * lift_1, h2 * lift_1, h3 * lift_1, h4 * lift_1, h5 * lift_1
+    k16 = h6 * lift_1
+    k22, k23, k24, k25, k26 = bend + h2 * lift_2, h3 * lift_2, h4 * lift_2, h5 * lift_2, h6 * lift_2
     k33, k34, k35 = h3 * lift_3 + k.turning * hard, h4 * lift_3, h5 * lift_3
     k36 = h6 * lift_3 + c.iota * hard
-    k44, k45, k46 = h4 * lift_4 + k.shearing * hard, h5 * lift_4, h6 * lift_4
-    k55, k56 = h5 * lift_5 + k.shearing * hard, h6 * lift_5
+    k44, k45, k46 = h4 * lift_4 + shear, h5 * lift_4, h6 * lift_4
+    k55, k56 = h5 * lift_5 + shear, h6 * lift_5
     k66 = h6 * lift_6 + k.stretching * hard
     return (
         (

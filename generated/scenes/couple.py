@@ -16,10 +16,10 @@ in plain Python, where nothing is extreme. They agree with the arrays' answers w
 the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
-    strains                26    4    0    5
+    strains                26    4    0    8
     complementary_energy   33    6    1   11
     compliance             79    4    0   26
-    strains_and_gap        28    4    0    5
+    strains_and_gap        28    4    0    8
 """
 
 from __future__ import annotations
@@ -158,13 +158,12 @@ class Plain:
         alpha, beta, gamma, eta, iota, p = (
             Fraction(v) for v in (c.alpha, c.beta, c.gamma, c.eta, c.iota, c.p)
         )
-        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
-        self.turn_load = _rounded(1 / beta**2 / gamma**2)
-        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
-        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
         self.bend_soft = _rounded(1 / alpha**2 / gamma)
         self.turn_soft = _rounded(1 / beta**2 / gamma)
+        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
+        self.slack_load = _rounded(gamma * (beta**2 * eta**2 - iota**2) / beta**2)
         self.untwist = _rounded(iota / beta**2)
+        self.per_gamma = _rounded(1 / gamma)
         self.per_p = _rounded(1 / p)
         used = [v for v in vars(self).values() if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
@@ -176,8 +175,8 @@ class Plain:
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(1024))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
         self.of_strains = (
-            -self.m3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p, -self.per_p,
-            self.bend_soft, self.turn_soft, self.untwist, *self.room[DOUBLE],
+            self.bend_soft, self.turn_soft, -self.m3_extends, self.per_gamma, self.slack_load,
+            self.untwist, 0.5 * c.p, -self.per_p, *self.room[DOUBLE],
         )
         self.of_strains_and_gap = self.of_strains
 
@@ -368,21 +367,21 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = out is None or all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
-    flat = [
-        (r if direct else _fresh(r.shape, r.dtype)).reshape(*HEADS[name], points)
-        for name, r in zip(names, results, strict=True)
-    ]
+    given = arrays
+    flat = results if direct else [_fresh(r.shape, r.dtype) for r in results]
+    if len(shape) != 1:
+        given = [a.reshape(*HEADS[name], points) for name, a in zip(inputs, given, strict=True)]
+        flat = [r.reshape(*HEADS[name], points) for name, r in zip(names, flat, strict=True)]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            rows = [row for a in given for row in a[:, part]]
-            body(rows, c, *(array[..., part] for array in flat))
+            block = [a[..., part] for a in given]
+            body(*block, c, *(array[..., part] for array in flat))
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -420,14 +419,18 @@ def _numbers(array: Array) -> Any:
 
 
 def _scratch(count: int, like: Array) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = (like.size // LINE + 1) * LINE
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it.
+
+    Short ones follow each other, to be worked on as one; of long ones NumPy would make copies.
+    """
+    points = like.shape[-1]
+    length = points if points < 512 else (points // LINE + 1) * LINE
     needed = count * length * like.itemsize
     memory = getattr(KEPT, "memory", None)
     if memory is None or len(memory) < needed:
         memory = KEPT.memory = _fresh((needed,), np.uint8)
     rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
-    return rows[:, : like.size]
+    return rows[:, :points]
 
 
 def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
@@ -436,21 +439,23 @@ def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
     return bool(low < square[square.argmin()] and square[square.argmax()] < high)
 
 
-def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
-    """Q*/gamma^2 as a sum of squares, and the extension."""
+def _overload(m: Array, c: Constants, u: Array, v3: Array, s: Array) -> Array:
+    """Q*/gamma^2 as a sum of squares; the linear rod's strains over gamma in u and v3."""
     k = c.plain
-    m1, m2, m3 = loads
-    extension = np.multiply(-k.m3_extends, m3, out=s[0])
-    overload = np.square(m1, out=s[1])
-    overload += np.square(m2, out=s[2])
-    overload *= k.bend_load
-    np.square(extension, out=s[2])
-    s[2] *= k.slack
-    overload += s[2]
-    np.square(m3, out=s[2])
-    s[2] *= k.turn_load
-    overload += s[2]
-    return extension, overload
+    x = s[:2]
+    np.multiply(k.bend_soft, m[:2], out=u[:2])
+    turn = np.multiply(k.turn_soft, m[2], out=s[2])
+    np.multiply(-k.m3_extends, m[2], out=v3)
+    np.multiply(m[:2], u[:2], out=x)
+    overload: Array = np.add(x[0], x[1], out=s[3])
+    overload += np.multiply(m[2], turn, out=s[4])
+    np.square(v3, out=s[4])
+    s[4] *= k.slack_load
+    overload += s[4]
+    overload *= k.per_gamma
+    np.multiply(k.untwist, v3, out=u[2])
+    np.subtract(turn, u[2], out=u[2])
+    return overload
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
@@ -460,37 +465,31 @@ def _spread(matrix: Array, weight: Array, vector: Array) -> None:
         matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
-def _strains_plain(loads: Rows, c: Constants, u: Array, v3: Array) -> bool:
+def _strains_plain(m: Array, c: Constants, u: Array, v3: Array) -> bool:
     """`_strains` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3 = loads
-    work = _scratch(3, loads[0])
-    s = [*work]
+    s = _scratch(5, m)
     with np.errstate(over="ignore", invalid="ignore"):
-        extension, overload = _overload(loads, c, s)
+        overload = _overload(m, c, u, v3, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[3])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[1])
+    root = np.log1p(excess, out=s[3])
     root *= -k.per_p
     np.exp(root, out=root)
-    bend = np.multiply(k.bend_soft, root, out=s[2])
-    np.multiply(bend, m1, out=u[0])
-    np.multiply(bend, m2, out=u[1])
-    np.multiply(k.turn_soft, m3, out=u[2])
-    u[2] -= np.multiply(k.untwist, extension, out=s[2])
-    u[2] *= root
-    np.multiply(extension, root, out=v3)
+    u *= root
+    v3 *= root
     v3 += 1
     return True
 
 
-def _strains(loads: Rows, c: Constants, u: Array, v3: Array) -> None:
+def _strains(m: Array, c: Constants, u: Array, v3: Array) -> None:
     """(u, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 m."""
-    if _strains_plain(loads, c, u, v3):
+    if _strains_plain(m, c, u, v3):
         return
+    loads = [*m]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, dilatation, twist = values
     *_, factor = _soften(y, c)
@@ -503,22 +502,21 @@ def _strains(loads: Rows, c: Constants, u: Array, v3: Array) -> None:
 def _strains_at(m: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
-        minus_m3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft, turn_soft,
-        untwist, low, high,
+        bend_soft, turn_soft, minus_m3_extends, per_gamma, slack_load, untwist, half_p, minus_per_p,
+        low, high,
     ) = c.plain.of_strains
     m1, m2, m3 = m
+    w1, w2, turn = bend_soft * m1, bend_soft * m2, turn_soft * m3
     extension = minus_m3_extends * m3
-    overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+    overload = per_gamma * (slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3)))
     ):
         raise _Extreme
+    twist = turn - untwist * extension
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    bend = bend_soft * root
-    return (
-        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)), extension * root + 1
-    )
+    return (root * w1, root * w2, root * twist), extension * root + 1
 
 
 def strains(m: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -537,8 +535,9 @@ def strains(m: Given, constants: Constants, out: Pair | None = None) -> Pair:
     return u, v3
 
 
-def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+def _complementary_energy(m: Array, c: Constants, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
+    loads = [*m]
     _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
     ratio, power, factor = _soften(y, c)
     strain = factor * y
@@ -581,12 +580,13 @@ def complementary_energy(m: Given, constants: Constants, out: Array | None = Non
     return w_star
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(m: Array, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 m/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
+    loads = [*m]
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, dilatation, twist = values
     _, power, factor = _soften(y, c)
@@ -666,41 +666,33 @@ def compliance(m: Given, constants: Constants, out: Array | None = None) -> Arra
     return soft
 
 
-def _strains_and_gap_plain(
-    loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array
-) -> bool:
+def _strains_and_gap_plain(m: Array, c: Constants, u: Array, v3: Array, limit_gap: Array) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3 = loads
-    work = _scratch(4, loads[0])
-    s = [*work]
+    s = _scratch(5, m)
     with np.errstate(over="ignore", invalid="ignore"):
-        extension, overload = _overload(loads, c, s)
+        overload = _overload(m, c, u, v3, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[3])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[2])
+    root = np.log1p(excess, out=s[0])
     root *= -k.per_p
     np.exp(root, out=root)
-    bend = np.multiply(k.bend_soft, root, out=s[3])
-    np.multiply(bend, m1, out=u[0])
-    np.multiply(bend, m2, out=u[1])
-    np.multiply(k.turn_soft, m3, out=u[2])
-    u[2] -= np.multiply(k.untwist, extension, out=s[3])
-    u[2] *= root
-    np.multiply(extension, root, out=v3)
+    u *= root
+    v3 *= root
     v3 += 1
     np.add(excess, 1, out=limit_gap)
     np.divide(1, limit_gap, out=limit_gap)
     return True
 
 
-def _strains_and_gap(loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array) -> None:
+def _strains_and_gap(m: Array, c: Constants, u: Array, v3: Array, limit_gap: Array) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    if _strains_and_gap_plain(loads, c, u, v3, limit_gap):
+    if _strains_and_gap_plain(m, c, u, v3, limit_gap):
         return
+    loads = [*m]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, dilatation, twist = values
     _, power, factor = _soften(y, c)
@@ -715,24 +707,21 @@ def _strains_and_gap(loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: 
 def _strains_and_gap_at(m: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
     (
-        minus_m3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft, turn_soft,
-        untwist, low, high,
+        bend_soft, turn_soft, minus_m3_extends, per_gamma, slack_load, untwist, half_p, minus_per_p,
+        low, high,
     ) = c.plain.of_strains_and_gap
     m1, m2, m3 = m
+    w1, w2, turn = bend_soft * m1, bend_soft * m2, turn_soft * m3
     extension = minus_m3_extends * m3
-    overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+    overload = per_gamma * (slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3)))
     ):
         raise _Extreme
+    twist = turn - untwist * extension
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    bend = bend_soft * root
-    return (
-        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)),
-        extension * root + 1,
-        1 / (excess + 1),
-    )
+    return (root * w1, root * w2, root * twist), extension * root + 1, 1 / (excess + 1)
 
 
 def strains_and_gap(m: Given, constants: Constants, out: Triple | None = None) -> Triple:

@@ -18,15 +18,15 @@ in plain Python, where nothing is extreme. They agree with the arrays' answers w
 the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
-    strains                28    4    0    5
-    loads                  26    4    0    7
+    strains                28    4    0    8
+    loads                  26    4    0    9
     stored_energy          26    4    1   11
     complementary_energy   35    6    1   11
-    stiffness              56    4    0   10
-    loads_and_stiffness    59    4    0   11
+    stiffness              54    4    0   11
+    loads_and_stiffness    58    4    0   11
     compliance            108    4    0   31
-    strains_and_gap        30    4    0    5
-    stiffness_at_loads     55    4    0    9
+    strains_and_gap        30    4    0    8
+    stiffness_at_loads     59    4    0   14
 """
 
 from __future__ import annotations
@@ -211,20 +211,19 @@ class Plain:
         alpha, beta, gamma, eta, iota, p = (
             Fraction(v) for v in (c.alpha, c.beta, c.gamma, c.eta, c.iota, c.p)
         )
-        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
-        self.turn_load = _rounded(1 / beta**2 / gamma**2)
-        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
-        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
-        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
         self.bend_soft = _rounded(1 / alpha**2 / gamma)
         self.turn_soft = _rounded(1 / beta**2 / gamma)
+        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
+        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
+        self.slack_load = _rounded(gamma * (beta**2 * eta**2 - iota**2) / beta**2)
         self.untwist = _rounded(iota / beta**2)
+        self.per_gamma = _rounded(1 / gamma)
         self.per_p = _rounded(1 / p)
         self.bending = _rounded(alpha**2)
         self.turning = _rounded(beta**2)
+        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
         self.per_turning = _rounded(1 / beta**2)
         self.stretching = _rounded(eta**2)
-        self.per_gamma = _rounded(1 / gamma)
         used = [v for v in (c.gamma, c.iota, *vars(self).values()) if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
         self.within_q: dict[Any, tuple[float, float]] = {}
@@ -238,21 +237,21 @@ class Plain:
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
             self.within_q[kind] = q if even else (1.0, 0.0)
         self.of_strains = (
-            self.m3_extends, self.n3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p,
-            -self.per_p, self.bend_soft, self.turn_soft, self.untwist, *self.room[DOUBLE],
+            self.bend_soft, self.turn_soft, self.m3_extends, self.n3_extends, self.per_gamma,
+            self.slack_load, self.untwist, 0.5 * c.p, -self.per_p, *self.room[DOUBLE],
         )
         self.of_loads = (
-            c.iota, self.turning, self.slack, self.bending, self.per_turning, 0.5 * c.p, c.gamma,
-            -self.per_p, self.untwist, *self.room[DOUBLE],
+            self.bending, c.iota, self.turning, self.slack, self.untwist, self.per_turning,
+            0.5 * c.p, c.gamma, -self.per_p, *self.room[DOUBLE],
         )
         self.of_loads_and_stiffness = (
-            c.iota, self.turning, self.slack, self.bending, self.untwist, self.per_turning,
+            self.bending, c.iota, self.turning, self.slack, self.untwist, self.per_turning,
             0.5 * c.p, c.gamma, -self.per_p, self.stretching, *self.room[DOUBLE],
         )
         self.of_strains_and_gap = self.of_strains
         self.of_stiffness_at_loads = (
-            self.m3_extends, self.n3_extends, self.bend_load, self.slack, self.turn_load, 0.5 * c.p,
-            c.gamma, self.per_p, self.per_gamma, self.bending, self.turning, c.iota,
+            self.bend_soft, self.turn_soft, self.m3_extends, self.n3_extends, self.per_gamma,
+            self.slack_load, 0.5 * c.p, c.gamma, self.per_p, self.bending, self.turning, c.iota,
             self.stretching, *self.room[DOUBLE],
         )
 
@@ -497,24 +496,25 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = out is None or all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
-    flat = [
-        (r if direct else _fresh(r.shape, r.dtype)).reshape(*HEADS[name], points)
-        for name, r in zip(names, results, strict=True)
-    ]
+    given = arrays
+    flat = results if direct else [_fresh(r.shape, r.dtype) for r in results]
+    if len(shape) != 1:
+        given = [a.reshape(*HEADS[name], points) for name, a in zip(inputs, given, strict=True)]
+        flat = [r.reshape(*HEADS[name], points) for name, r in zip(names, flat, strict=True)]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            rows = [row for a in given for row in a[:, part]]
+            block = [a[..., part] for a in given]
             try:
-                body(rows, c, *(array[..., part] for array in flat))
+                body(*block, c, *(array[..., part] for array in flat))
             except _PastLimit:
-                raise _past_limit([row for a in given for row in a], c, shape) from None
+                rows = [row for a in given for row in np.atleast_2d(a)]
+                raise _past_limit(rows, c, shape) from None
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -552,14 +552,18 @@ def _numbers(array: Array) -> Any:
 
 
 def _scratch(count: int, like: Array) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = (like.size // LINE + 1) * LINE
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it.
+
+    Short ones follow each other, to be worked on as one; of long ones NumPy would make copies.
+    """
+    points = like.shape[-1]
+    length = points if points < 512 else (points // LINE + 1) * LINE
     needed = count * length * like.itemsize
     memory = getattr(KEPT, "memory", None)
     if memory is None or len(memory) < needed:
         memory = KEPT.memory = _fresh((needed,), np.uint8)
     rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
-    return rows[:, : like.size]
+    return rows[:, :points]
 
 
 def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
@@ -568,40 +572,44 @@ def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
     return bool(low < square[square.argmin()] and square[square.argmax()] < high)
 
 
-def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
-    """Q*/gamma^2 as a sum of squares, and the extension."""
+def _overload(m: Array, n3: Array, c: Constants, u: Array, v3: Array, s: Array) -> Array:
+    """Q*/gamma^2 as a sum of squares; the linear rod's strains over gamma in u and v3."""
     k = c.plain
-    m1, m2, m3, n3 = loads
-    extension = np.multiply(k.n3_extends, n3, out=s[0])
-    extension -= np.multiply(k.m3_extends, m3, out=s[1])
-    overload = np.square(m1, out=s[1])
-    overload += np.square(m2, out=s[2])
-    overload *= k.bend_load
-    np.square(extension, out=s[2])
-    s[2] *= k.slack
-    overload += s[2]
-    np.square(m3, out=s[2])
-    s[2] *= k.turn_load
-    overload += s[2]
-    return extension, overload
+    x = s[:2]
+    np.multiply(k.bend_soft, m[:2], out=u[:2])
+    turn = np.multiply(k.turn_soft, m[2], out=s[2])
+    np.multiply(k.n3_extends, n3, out=v3)
+    v3 -= np.multiply(k.m3_extends, m[2], out=s[3])
+    np.multiply(m[:2], u[:2], out=x)
+    overload: Array = np.add(x[0], x[1], out=s[3])
+    overload += np.multiply(m[2], turn, out=s[4])
+    np.square(v3, out=s[4])
+    s[4] *= k.slack_load
+    overload += s[4]
+    overload *= k.per_gamma
+    np.multiply(k.untwist, v3, out=u[2])
+    np.subtract(turn, u[2], out=u[2])
+    return overload
 
 
-def _q(strains: Rows, c: Constants, s: Rows) -> Rows:
-    """Q as a sum of squares, and the torque and the slack pull."""
+def _q(u: Array, v3: Array, c: Constants, m: Array, n3: Array, s: Array) -> Array:
+    """Q as a sum of squares; the linear rod's loads over gamma in m and n3."""
     k = c.plain
-    u1, u2, u3, v3 = strains
-    stretch = np.subtract(v3, 1, out=s[0])
-    torque = np.multiply(c.iota, stretch, out=s[7])
-    torque += np.multiply(k.turning, u3, out=s[1])
-    slack_pull = np.multiply(k.slack, stretch, out=s[1])
-    q = np.square(u1, out=s[2])
-    q += np.square(u2, out=s[3])
-    q *= k.bending
-    np.square(torque, out=s[3])
-    s[3] *= k.per_turning
-    q += s[3]
-    q += np.multiply(slack_pull, stretch, out=s[0])
-    return torque, slack_pull, q
+    x = s[:2]
+    stretch = np.subtract(v3, 1, out=s[2])
+    np.multiply(k.bending, u[:2], out=m[:2])
+    np.multiply(c.iota, stretch, out=m[2])
+    m[2] += np.multiply(k.turning, u[2], out=s[3])
+    pull = np.multiply(k.slack, stretch, out=s[3])
+    np.multiply(k.untwist, m[2], out=n3)
+    n3 += pull
+    np.multiply(m[:2], u[:2], out=x)
+    q: Array = np.add(x[0], x[1], out=s[4])
+    np.square(m[2], out=s[5])
+    s[5] *= k.per_turning
+    q += s[5]
+    q += np.multiply(pull, stretch, out=s[3])
+    return q
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
@@ -611,37 +619,31 @@ def _spread(matrix: Array, weight: Array, vector: Array) -> None:
         matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
-def _strains_plain(loads: Rows, c: Constants, u: Array, v3: Array) -> bool:
+def _strains_plain(m: Array, n3: Array, c: Constants, u: Array, v3: Array) -> bool:
     """`_strains` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3, _ = loads
-    work = _scratch(3, loads[0])
-    s = [*work]
+    s = _scratch(5, m)
     with np.errstate(over="ignore", invalid="ignore"):
-        extension, overload = _overload(loads, c, s)
+        overload = _overload(m, n3, c, u, v3, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[3])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[1])
+    root = np.log1p(excess, out=s[3])
     root *= -k.per_p
     np.exp(root, out=root)
-    bend = np.multiply(k.bend_soft, root, out=s[2])
-    np.multiply(bend, m1, out=u[0])
-    np.multiply(bend, m2, out=u[1])
-    np.multiply(k.turn_soft, m3, out=u[2])
-    u[2] -= np.multiply(k.untwist, extension, out=s[2])
-    u[2] *= root
-    np.multiply(extension, root, out=v3)
+    u *= root
+    v3 *= root
     v3 += 1
     return True
 
 
-def _strains(loads: Rows, c: Constants, u: Array, v3: Array) -> None:
+def _strains(m: Array, n3: Array, c: Constants, u: Array, v3: Array) -> None:
     """(u, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n3)."""
-    if _strains_plain(loads, c, u, v3):
+    if _strains_plain(m, n3, c, u, v3):
         return
+    loads = [*m, n3]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, dilatation, twist, _ = values
     *_, factor = _soften(y, c)
@@ -654,22 +656,21 @@ def _strains(loads: Rows, c: Constants, u: Array, v3: Array) -> None:
 def _strains_at(m: Any, n3: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
-        m3_extends, n3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft,
-        turn_soft, untwist, low, high,
+        bend_soft, turn_soft, m3_extends, n3_extends, per_gamma, slack_load, untwist, half_p,
+        minus_per_p, low, high,
     ) = c.plain.of_strains
     m1, m2, m3 = m
+    w1, w2, turn = bend_soft * m1, bend_soft * m2, turn_soft * m3
     extension = n3_extends * n3 - m3_extends * m3
-    overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+    overload = per_gamma * (slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3, n3)))
     ):
         raise _Extreme
+    twist = turn - untwist * extension
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    bend = bend_soft * root
-    return (
-        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)), extension * root + 1
-    )
+    return (root * w1, root * w2, root * twist), extension * root + 1
 
 
 def strains(m: Given, n3: Given | float, constants: Constants, out: Pair | None = None) -> Pair:
@@ -688,38 +689,32 @@ def strains(m: Given, n3: Given | float, constants: Constants, out: Pair | None 
     return u, v3
 
 
-def _loads_plain(strains: Rows, c: Constants, m: Array, n3: Array) -> bool:
+def _loads_plain(u: Array, v3: Array, c: Constants, m: Array, n3: Array) -> bool:
     """`_loads` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, _, _ = strains
-    work = _scratch(8, strains[0])
-    s = [*work]
+    s = _scratch(6, u)
     with np.errstate(over="ignore", invalid="ignore"):
-        torque, slack_pull, q = _q(strains, c, s)
+        q = _q(u, v3, c, m, n3, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[2])
+    growth = np.log(q, out=s[4])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[2])
+    hard = np.log1p(growth, out=s[4])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    bend = np.multiply(k.bending, hard, out=s[0])
-    np.multiply(bend, u1, out=m[0])
-    np.multiply(bend, u2, out=m[1])
-    np.multiply(hard, torque, out=m[2])
-    np.multiply(k.untwist, torque, out=n3)
-    np.add(slack_pull, n3, out=n3)
+    m *= hard
     n3 *= hard
     return True
 
 
-def _loads(strains: Rows, c: Constants, m: Array, n3: Array) -> None:
+def _loads(u: Array, v3: Array, c: Constants, m: Array, n3: Array) -> None:
     """(m, n3) = gamma (1 - Q^(p/2))^(-1/p) K (u, v3 - 1)."""
-    if _loads_plain(strains, c, m, n3):
+    if _loads_plain(u, v3, c, m, n3):
         return
+    strains = [*u, v3]
     rest = [*strains[:3], strains[3] - 1]
     values, _, unscale, q = _rescaled(_reduce_strains, rest, c)
     kappa_1, kappa_2, torque, tension = values
@@ -734,13 +729,14 @@ def _loads(strains: Rows, c: Constants, m: Array, n3: Array) -> None:
 def _loads_at(u: Any, v3: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
     (
-        iota, turning, slack, bending, per_turning, half_p, gamma, minus_per_p, untwist, low, high,
+        bending, iota, turning, slack, untwist, per_turning, half_p, gamma, minus_per_p, low, high,
     ) = c.plain.of_loads
     u1, u2, u3 = u
     stretch = v3 - 1
+    r1, r2, pull = bending * u1, bending * u2, slack * stretch
     torque = iota * stretch + turning * u3
-    slack_pull = slack * stretch
-    q = bending * (u1 * u1 + u2 * u2) + per_turning * torque * torque + slack_pull * stretch
+    tension = pull + untwist * torque
+    q = per_turning * torque * torque + pull * stretch + r1 * u1 + r2 * u2
     if type(q) is not float or (
         not low < q < 1 and (q or low > high or any((u1, u2, u3, stretch)))
     ):
@@ -748,8 +744,7 @@ def _loads_at(u: Any, v3: Any, c: Constants) -> Any:
     q = q or NOUGHT
     left = -expm1(half_p * log(q))
     hard = gamma * left**minus_per_p
-    bend = bending * hard
-    return (bend * u1, bend * u2, hard * torque), hard * (slack_pull + untwist * torque)
+    return (hard * r1, hard * r2, hard * torque), hard * tension
 
 
 def loads(u: Given, v3: Given | float, constants: Constants, out: Pair | None = None) -> Pair:
@@ -769,8 +764,9 @@ def loads(u: Given, v3: Given | float, constants: Constants, out: Pair | None = 
     return m, n3
 
 
-def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
+def _stored_energy(u: Array, v3: Array, c: Constants, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
+    strains = [*u, v3]
     rest = [*strains[:3], strains[3] - 1]
     _, _, x, _, q = _balanced(_reduce_strains, rest, c)
     q = _within_limit(q)
@@ -816,8 +812,9 @@ def stored_energy(
     return w
 
 
-def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+def _complementary_energy(m: Array, n3: Array, c: Constants, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
+    loads = [*m, n3]
     _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
     ratio, power, factor = _soften(y, c)
     strain = factor * y
@@ -864,46 +861,41 @@ def complementary_energy(
     return w_star
 
 
-def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
+def _stiffness_plain(u: Array, v3: Array, c: Constants, stiff: Array) -> bool:
     """`_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, _, _ = strains
-    work = _scratch(9, strains[0])
-    s = [*work]
-    r = work[5:9]
+    s = _scratch(10, u)
+    w, s = s[:4], s[4:]
     with np.errstate(over="ignore", invalid="ignore"):
-        torque, slack_pull, q = _q(strains, c, s)
+        q = _q(u, v3, c, w[:3], w[3], s)
     if not _inside(q, k.within_q):
         return False
-    np.multiply(k.bending, u1, out=r[0])
-    np.multiply(k.bending, u2, out=r[1])
-    np.multiply(k.untwist, torque, out=r[3])
-    np.add(slack_pull, r[3], out=r[3])
-    growth = np.log(q, out=s[1])
+    growth = np.log(q, out=s[0])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[0])
+    hard = np.log1p(growth, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    steep = np.multiply(growth, hard, out=s[1])
+    steep = np.multiply(growth, hard, out=s[0])
     steep /= q
-    _spread(stiff, steep, r)
-    np.multiply(k.bending, hard, out=s[1])
-    stiff[0, 0] += s[1]
-    stiff[1, 1] += s[1]
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[1])
-    stiff[2, 3] += np.multiply(c.iota, hard, out=s[1])
-    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[0])
+    _spread(stiff, steep, w)
+    bend = np.multiply(k.bending, hard, out=s[0])
+    stiff[0, 0] += bend
+    stiff[1, 1] += bend
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
+    stiff[2, 3] += np.multiply(c.iota, hard, out=s[0])
+    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[1])
     stiff[3, 2] = stiff[2, 3]
     return True
 
 
-def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness(u: Array, v3: Array, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u, v3 - 1)/x."""
-    if _stiffness_plain(strains, c, stiff):
+    if _stiffness_plain(u, v3, c, stiff):
         return
+    strains = [*u, v3]
     rest = [*strains[:3], strains[3] - 1]
     with np.errstate(over="ignore", invalid="ignore"):
         kappa_1, kappa_2, torque, tension, q = _reduce_strains(rest, c)
@@ -949,51 +941,46 @@ def stiffness(u: Given, v3: Given | float, constants: Constants, out: Array | No
 
 
 def _loads_and_stiffness_plain(
-    strains: Rows, c: Constants, m: Array, n3: Array, stiff: Array
+    u: Array, v3: Array, c: Constants, m: Array, n3: Array, stiff: Array
 ) -> bool:
     """`_loads_and_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, _, _ = strains
-    work = _scratch(9, strains[0])
-    s = [*work]
-    r = work[5:9]
+    s = _scratch(10, u)
+    w, s = s[:4], s[4:]
     with np.errstate(over="ignore", invalid="ignore"):
-        torque, slack_pull, q = _q(strains, c, s)
+        q = _q(u, v3, c, w[:3], w[3], s)
     if not _inside(q, k.within_q):
         return False
     growth = np.log(q, out=s[0])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[3])
+    hard = np.log1p(growth, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    bend = np.multiply(k.bending, hard, out=s[4])
-    np.multiply(bend, u1, out=m[0])
-    np.multiply(bend, u2, out=m[1])
-    np.multiply(hard, torque, out=m[2])
-    np.multiply(k.untwist, torque, out=r[3])
-    np.add(slack_pull, r[3], out=r[3])
-    np.multiply(hard, r[3], out=n3)
-    np.multiply(k.bending, u1, out=r[0])
-    np.multiply(k.bending, u2, out=r[1])
+    np.multiply(hard, w[:3], out=m)
+    np.multiply(hard, w[3], out=n3)
     steep = np.multiply(growth, hard, out=s[0])
     steep /= q
-    _spread(stiff, steep, r)
+    _spread(stiff, steep, w)
+    bend = np.multiply(k.bending, hard, out=s[0])
     stiff[0, 0] += bend
     stiff[1, 1] += bend
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[4])
-    stiff[2, 3] += np.multiply(c.iota, hard, out=s[4])
-    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[3])
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
+    stiff[2, 3] += np.multiply(c.iota, hard, out=s[0])
+    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[1])
     stiff[3, 2] = stiff[2, 3]
     return True
 
 
-def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n3: Array, stiff: Array) -> None:
+def _loads_and_stiffness(
+    u: Array, v3: Array, c: Constants, m: Array, n3: Array, stiff: Array
+) -> None:
     """(m, n3) = factor K (u, v3 - 1) and D^2 W = factor (K + growth t t^T), as apart."""
-    if _loads_and_stiffness_plain(strains, c, m, n3, stiff):
+    if _loads_and_stiffness_plain(u, v3, c, m, n3, stiff):
         return
+    strains = [*u, v3]
     rest = [*strains[:3], strains[3] - 1]
     values, size, _, unscale, q = _balanced(_reduce_strains, rest, c)
     kappa_1, kappa_2, torque, tension = values
@@ -1023,15 +1010,15 @@ def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n3: Array, stiff
 def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
     """`loads_and_stiffness` of floats, where nothing is extreme."""
     (
-        iota, turning, slack, bending, untwist, per_turning, half_p, gamma, minus_per_p, stretching,
+        bending, iota, turning, slack, untwist, per_turning, half_p, gamma, minus_per_p, stretching,
         low, high,
     ) = c.plain.of_loads_and_stiffness
     u1, u2, u3 = u
     stretch = v3 - 1
+    r1, r2, pull = bending * u1, bending * u2, slack * stretch
     torque = iota * stretch + turning * u3
-    slack_pull, r1, r2 = slack * stretch, bending * u1, bending * u2
-    r6 = slack_pull + untwist * torque
-    q = bending * (u1 * u1 + u2 * u2) + per_turning * torque * torque + slack_pull * stretch
+    tension = pull + untwist * torque
+    q = per_turning * torque * torque + pull * stretch + r1 * u1 + r2 * u2
     if type(q) is not float or (
         not low < q < 1 and (q or low > high or any((u1, u2, u3, stretch)))
     ):
@@ -1042,19 +1029,19 @@ def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
     hard = gamma * left**minus_per_p
     steep = growth * hard / q
     bend, steep_1, steep_2 = bending * hard, r1 * steep, r2 * steep
-    steep_3, steep_4 = steep * torque, r6 * steep
+    steep_3, steep_4 = steep * torque, steep * tension
     k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque
-    k14 = r6 * steep_1
-    k22, k23, k24 = bend + r2 * steep_2, steep_2 * torque, r6 * steep_2
-    k33, k34 = turning * hard + steep_3 * torque, iota * hard + r6 * steep_3
-    k44 = stretching * hard + r6 * steep_4
+    k14 = steep_1 * tension
+    k22, k23, k24 = bend + r2 * steep_2, steep_2 * torque, steep_2 * tension
+    k33, k34 = turning * hard + steep_3 * torque, iota * hard + steep_3 * tension
+    k44 = stretching * hard + steep_4 * tension
     stiff = (
         (k11, k12, k13, k14),
         (k12, k22, k23, k24),
         (k13, k23, k33, k34),
         (k14, k24, k34, k44),
     )
-    return (bend * u1, bend * u2, hard * torque), hard * r6, stiff
+    return (hard * r1, hard * r2, hard * torque), hard * tension, stiff
 
 
 def loads_and_stiffness(
@@ -1079,12 +1066,13 @@ def loads_and_stiffness(
     return m, n3, stiff
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(m: Array, n3: Array, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n3)/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
+    loads = [*m, n3]
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, dilatation, twist, nu_3 = values
     _, power, factor = _soften(y, c)
@@ -1183,40 +1171,36 @@ def compliance(
 
 
 def _strains_and_gap_plain(
-    loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array
+    m: Array, n3: Array, c: Constants, u: Array, v3: Array, limit_gap: Array
 ) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3, _ = loads
-    work = _scratch(4, loads[0])
-    s = [*work]
+    s = _scratch(5, m)
     with np.errstate(over="ignore", invalid="ignore"):
-        extension, overload = _overload(loads, c, s)
+        overload = _overload(m, n3, c, u, v3, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[3])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[2])
+    root = np.log1p(excess, out=s[0])
     root *= -k.per_p
     np.exp(root, out=root)
-    bend = np.multiply(k.bend_soft, root, out=s[3])
-    np.multiply(bend, m1, out=u[0])
-    np.multiply(bend, m2, out=u[1])
-    np.multiply(k.turn_soft, m3, out=u[2])
-    u[2] -= np.multiply(k.untwist, extension, out=s[3])
-    u[2] *= root
-    np.multiply(extension, root, out=v3)
+    u *= root
+    v3 *= root
     v3 += 1
     np.add(excess, 1, out=limit_gap)
     np.divide(1, limit_gap, out=limit_gap)
     return True
 
 
-def _strains_and_gap(loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: Array) -> None:
+def _strains_and_gap(
+    m: Array, n3: Array, c: Constants, u: Array, v3: Array, limit_gap: Array
+) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    if _strains_and_gap_plain(loads, c, u, v3, limit_gap):
+    if _strains_and_gap_plain(m, n3, c, u, v3, limit_gap):
         return
+    loads = [*m, n3]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, dilatation, twist, _ = values
     _, power, factor = _soften(y, c)
@@ -1231,24 +1215,21 @@ def _strains_and_gap(loads: Rows, c: Constants, u: Array, v3: Array, limit_gap: 
 def _strains_and_gap_at(m: Any, n3: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
     (
-        m3_extends, n3_extends, bend_load, slack, turn_load, half_p, minus_per_p, bend_soft,
-        turn_soft, untwist, low, high,
+        bend_soft, turn_soft, m3_extends, n3_extends, per_gamma, slack_load, untwist, half_p,
+        minus_per_p, low, high,
     ) = c.plain.of_strains_and_gap
     m1, m2, m3 = m
+    w1, w2, turn = bend_soft * m1, bend_soft * m2, turn_soft * m3
     extension = n3_extends * n3 - m3_extends * m3
-    overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+    overload = per_gamma * (slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3, n3)))
     ):
         raise _Extreme
+    twist = turn - untwist * extension
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    bend = bend_soft * root
-    return (
-        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)),
-        extension * root + 1,
-        1 / (excess + 1),
-    )
+    return (root * w1, root * w2, root * twist), extension * root + 1, 1 / (excess + 1)
 
 
 def strains_and_gap(
@@ -1272,45 +1253,43 @@ def strains_and_gap(
     return u, v3, limit_gap
 
 
-def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
+def _stiffness_at_loads_plain(m: Array, n3: Array, c: Constants, stiff: Array) -> bool:
     """`_stiffness_at_loads` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3, n3 = loads
-    work = _scratch(7, loads[0])
-    s = [*work]
-    h = work[3:7]
+    s = _scratch(12, m)
+    w, s = s[:4], s[4:]
+    h = s[4:8]
     with np.errstate(over="ignore", invalid="ignore"):
-        *_, overload = _overload(loads, c, s)
+        overload = _overload(m, n3, c, w[:3], w[3], s)
     if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[0])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    hard = np.log1p(excess, out=s[2])
+    hard = np.log1p(excess, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     lift = np.multiply(excess, hard, out=s[0])
     lift /= overload
-    np.multiply(k.per_gamma, m1, out=h[0])
-    np.multiply(k.per_gamma, m2, out=h[1])
-    np.multiply(k.per_gamma, m3, out=h[2])
+    np.multiply(k.per_gamma, m, out=h[:3])
     np.multiply(k.per_gamma, n3, out=h[3])
     _spread(stiff, lift, h)
-    np.multiply(k.bending, hard, out=s[0])
-    stiff[0, 0] += s[0]
-    stiff[1, 1] += s[0]
+    bend = np.multiply(k.bending, hard, out=s[0])
+    stiff[0, 0] += bend
+    stiff[1, 1] += bend
     stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
     stiff[2, 3] += np.multiply(c.iota, hard, out=s[0])
-    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[2])
+    stiff[3, 3] += np.multiply(k.stretching, hard, out=s[1])
     stiff[3, 2] = stiff[2, 3]
     return True
 
 
-def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness_at_loads(m: Array, n3: Array, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m, n3)/y, y^2 = Q*."""
-    if _stiffness_at_loads_plain(loads, c, stiff):
+    if _stiffness_at_loads_plain(m, n3, c, stiff):
         return
+    loads = [*m, n3]
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, _, _, nu_3 = values
     rise, factor = _harden(y, c)
@@ -1334,12 +1313,13 @@ def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
 def _stiffness_at_loads_at(m: Any, n3: Any, c: Constants) -> Any:
     """`stiffness_at_loads` of floats, where nothing is extreme."""
     (
-        m3_extends, n3_extends, bend_load, slack, turn_load, half_p, gamma, per_p, per_gamma,
+        bend_soft, turn_soft, m3_extends, n3_extends, per_gamma, slack_load, half_p, gamma, per_p,
         bending, turning, iota, stretching, low, high,
     ) = c.plain.of_stiffness_at_loads
     m1, m2, m3 = m
+    w1, w2, turn = bend_soft * m1, bend_soft * m2, turn_soft * m3
     extension = n3_extends * n3 - m3_extends * m3
-    overload = bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
+    overload = per_gamma * (slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3, n3)))
     ):
@@ -1349,11 +1329,11 @@ def _stiffness_at_loads_at(m: Any, n3: Any, c: Constants) -> Any:
     hard = gamma * (excess + 1)**per_p
     lift = excess * hard / overload
     h1, h2, h3 = per_gamma * m1, per_gamma * m2, per_gamma * m3
-    h6, lift_1, lift_2 = per_gamma * n3, h1 * lift, h2 * lift
-    lift_3, lift_4 = h3 * lift, h6 * lift
-    k11, k12, k13 = bending * hard + h1 * lift_1, h2 * lift_1, h3 * lift_1
+    h6, bend, lift_1 = per_gamma * n3, bending * hard, h1 * lift
+    lift_2, lift_3, lift_4 = h2 * lift, h3 * lift, h6 * lift
+    k11, k12, k13 = bend + h1 * lift_1, h2 * lift_1, h3 * lift_1
     k14 = h6 * lift_1
-    k22, k23, k24 = bending * hard + h2 * lift_2, h3 * lift_2, h6 * lift_2
+    k22, k23, k24 = bend + h2 * lift_2, h3 * lift_2, h6 * lift_2
     k33, k34 = h3 * lift_3 + turning * hard, h6 * lift_3 + iota * hard
     k44 = h6 * lift_4 + stretching * hard
     return (

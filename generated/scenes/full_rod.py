@@ -18,15 +18,15 @@ in plain Python, where nothing is extreme. They agree with the arrays' answers w
 the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
-    strains                36    4    0    6
-    loads                  34    4    0    8
+    strains                36    4    0   10
+    loads                  34    4    0   11
     stored_energy          32    4    1   13
     complementary_energy   41    6    1   13
-    stiffness              89    4    0   12
-    loads_and_stiffness    93    4    0   14
+    stiffness              85    4    0   14
+    loads_and_stiffness    91    4    0   14
     compliance            160    4    0   39
-    strains_and_gap        38    4    0    6
-    stiffness_at_loads     88    4    0   11
+    strains_and_gap        38    4    0   10
+    stiffness_at_loads     92    4    0   19
 """
 
 from __future__ import annotations
@@ -191,23 +191,21 @@ class Plain:
         alpha, beta, gamma, zeta, eta, iota, p = (
             Fraction(v) for v in (c.alpha, c.beta, c.gamma, c.zeta, c.eta, c.iota, c.p)
         )
-        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
-        self.turn_load = _rounded(1 / beta**2 / gamma**2)
-        self.shear_load = _rounded(1 / gamma**2 / zeta**2)
-        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
-        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
-        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
         self.bend_soft = _rounded(1 / alpha**2 / gamma)
         self.turn_soft = _rounded(1 / beta**2 / gamma)
         self.shear_soft = _rounded(1 / gamma / zeta**2)
+        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
+        self.m3_extends = _rounded(iota / gamma / (beta**2 * eta**2 - iota**2))
+        self.slack_load = _rounded(gamma * (beta**2 * eta**2 - iota**2) / beta**2)
         self.untwist = _rounded(iota / beta**2)
+        self.per_gamma = _rounded(1 / gamma)
         self.per_p = _rounded(1 / p)
         self.bending = _rounded(alpha**2)
         self.turning = _rounded(beta**2)
         self.shearing = _rounded(zeta**2)
+        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
         self.per_turning = _rounded(1 / beta**2)
         self.stretching = _rounded(eta**2)
-        self.per_gamma = _rounded(1 / gamma)
         used = [v for v in (c.gamma, c.iota, *vars(self).values()) if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
         self.within_q: dict[Any, tuple[float, float]] = {}
@@ -221,23 +219,23 @@ class Plain:
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
             self.within_q[kind] = q if even else (1.0, 0.0)
         self.of_strains = (
-            self.m3_extends, self.n3_extends, self.bend_load, self.shear_load, self.slack,
-            self.turn_load, 0.5 * c.p, -self.per_p, self.bend_soft, self.shear_soft, self.turn_soft,
-            self.untwist, *self.room[DOUBLE],
+            self.bend_soft, self.turn_soft, self.shear_soft, self.m3_extends, self.n3_extends,
+            self.per_gamma, self.slack_load, self.untwist, 0.5 * c.p, -self.per_p,
+            *self.room[DOUBLE],
         )
         self.of_loads = (
-            c.iota, self.turning, self.slack, self.bending, self.per_turning, self.shearing,
-            0.5 * c.p, c.gamma, -self.per_p, self.untwist, *self.room[DOUBLE],
+            self.bending, c.iota, self.turning, self.shearing, self.slack, self.untwist,
+            self.per_turning, 0.5 * c.p, c.gamma, -self.per_p, *self.room[DOUBLE],
         )
         self.of_loads_and_stiffness = (
-            c.iota, self.turning, self.slack, self.bending, self.shearing, self.untwist,
+            self.bending, c.iota, self.turning, self.shearing, self.slack, self.untwist,
             self.per_turning, 0.5 * c.p, c.gamma, -self.per_p, self.stretching, *self.room[DOUBLE],
         )
         self.of_strains_and_gap = self.of_strains
         self.of_stiffness_at_loads = (
-            self.m3_extends, self.n3_extends, self.bend_load, self.shear_load, self.slack,
-            self.turn_load, 0.5 * c.p, c.gamma, self.per_p, self.per_gamma, self.bending,
-            self.turning, c.iota, self.shearing, self.stretching, *self.room[DOUBLE],
+            self.bend_soft, self.turn_soft, self.shear_soft, self.m3_extends, self.n3_extends,
+            self.per_gamma, self.slack_load, 0.5 * c.p, c.gamma, self.per_p, self.bending,
+            self.shearing, self.turning, c.iota, self.stretching, *self.room[DOUBLE],
         )
 
 
@@ -481,24 +479,25 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = out is None or all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
-    flat = [
-        (r if direct else _fresh(r.shape, r.dtype)).reshape(*HEADS[name], points)
-        for name, r in zip(names, results, strict=True)
-    ]
+    given = arrays
+    flat = results if direct else [_fresh(r.shape, r.dtype) for r in results]
+    if len(shape) != 1:
+        given = [a.reshape(*HEADS[name], points) for name, a in zip(inputs, given, strict=True)]
+        flat = [r.reshape(*HEADS[name], points) for name, r in zip(names, flat, strict=True)]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            rows = [row for a in given for row in a[:, part]]
+            block = [a[..., part] for a in given]
             try:
-                body(rows, c, *(array[..., part] for array in flat))
+                body(*block, c, *(array[..., part] for array in flat))
             except _PastLimit:
-                raise _past_limit([row for a in given for row in a], c, shape) from None
+                rows = [row for a in given for row in np.atleast_2d(a)]
+                raise _past_limit(rows, c, shape) from None
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -536,14 +535,18 @@ def _numbers(array: Array) -> Any:
 
 
 def _scratch(count: int, like: Array) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = (like.size // LINE + 1) * LINE
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it.
+
+    Short ones follow each other, to be worked on as one; of long ones NumPy would make copies.
+    """
+    points = like.shape[-1]
+    length = points if points < 512 else (points // LINE + 1) * LINE
     needed = count * length * like.itemsize
     memory = getattr(KEPT, "memory", None)
     if memory is None or len(memory) < needed:
         memory = KEPT.memory = _fresh((needed,), np.uint8)
     rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
-    return rows[:, : like.size]
+    return rows[:, :points]
 
 
 def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
@@ -552,48 +555,52 @@ def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
     return bool(low < square[square.argmin()] and square[square.argmax()] < high)
 
 
-def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
-    """Q*/gamma^2 as a sum of squares, and the extension."""
+def _overload(m: Array, n: Array, c: Constants, u: Array, v: Array, s: Array) -> Array:
+    """Q*/gamma^2 as a sum of squares; the linear rod's strains over gamma in u and v."""
     k = c.plain
-    m1, m2, m3, n1, n2, n3 = loads
-    extension = np.multiply(k.n3_extends, n3, out=s[0])
-    extension -= np.multiply(k.m3_extends, m3, out=s[1])
-    overload = np.square(m1, out=s[1])
-    overload += np.square(m2, out=s[2])
-    overload *= k.bend_load
-    np.square(extension, out=s[2])
-    s[2] *= k.slack
-    overload += s[2]
-    np.square(m3, out=s[2])
-    s[2] *= k.turn_load
-    overload += s[2]
-    np.square(n1, out=s[2])
-    s[2] += np.square(n2, out=s[3])
-    s[2] *= k.shear_load
-    overload += s[2]
-    return extension, overload
+    x = s[:2]
+    np.multiply(k.bend_soft, m[:2], out=u[:2])
+    turn = np.multiply(k.turn_soft, m[2], out=s[2])
+    np.multiply(k.shear_soft, n[:2], out=v[:2])
+    np.multiply(k.n3_extends, n[2], out=v[2])
+    v[2] -= np.multiply(k.m3_extends, m[2], out=s[3])
+    np.multiply(m[:2], u[:2], out=x)
+    overload: Array = np.add(x[0], x[1], out=s[3])
+    overload += np.multiply(m[2], turn, out=s[4])
+    np.multiply(n[:2], v[:2], out=x)
+    overload += x[0]
+    overload += x[1]
+    np.square(v[2], out=s[4])
+    s[4] *= k.slack_load
+    overload += s[4]
+    overload *= k.per_gamma
+    np.multiply(k.untwist, v[2], out=u[2])
+    np.subtract(turn, u[2], out=u[2])
+    return overload
 
 
-def _q(strains: Rows, c: Constants, s: Rows) -> Rows:
-    """Q as a sum of squares, and the torque and the slack pull."""
+def _q(u: Array, v: Array, c: Constants, m: Array, n: Array, s: Array) -> Array:
+    """Q as a sum of squares; the linear rod's loads over gamma in m and n."""
     k = c.plain
-    u1, u2, u3, v1, v2, v3 = strains
-    stretch = np.subtract(v3, 1, out=s[0])
-    torque = np.multiply(c.iota, stretch, out=s[8])
-    torque += np.multiply(k.turning, u3, out=s[1])
-    slack_pull = np.multiply(k.slack, stretch, out=s[1])
-    q = np.square(u1, out=s[2])
-    q += np.square(u2, out=s[3])
-    q *= k.bending
-    np.square(torque, out=s[3])
-    s[3] *= k.per_turning
-    q += s[3]
-    np.square(v1, out=s[3])
-    s[3] += np.square(v2, out=s[4])
-    s[3] *= k.shearing
-    q += s[3]
-    q += np.multiply(slack_pull, stretch, out=s[0])
-    return torque, slack_pull, q
+    x = s[:2]
+    stretch = np.subtract(v[2], 1, out=s[2])
+    np.multiply(k.bending, u[:2], out=m[:2])
+    np.multiply(c.iota, stretch, out=m[2])
+    m[2] += np.multiply(k.turning, u[2], out=s[3])
+    np.multiply(k.shearing, v[:2], out=n[:2])
+    pull = np.multiply(k.slack, stretch, out=s[3])
+    np.multiply(k.untwist, m[2], out=n[2])
+    n[2] += pull
+    np.multiply(m[:2], u[:2], out=x)
+    q: Array = np.add(x[0], x[1], out=s[4])
+    np.multiply(n[:2], v[:2], out=x)
+    q += x[0]
+    q += x[1]
+    np.square(m[2], out=s[5])
+    s[5] *= k.per_turning
+    q += s[5]
+    q += np.multiply(pull, stretch, out=s[3])
+    return q
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
@@ -603,40 +610,31 @@ def _spread(matrix: Array, weight: Array, vector: Array) -> None:
         matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
-def _strains_plain(loads: Rows, c: Constants, u: Array, v: Array) -> bool:
+def _strains_plain(m: Array, n: Array, c: Constants, u: Array, v: Array) -> bool:
     """`_strains` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3, n1, n2, _ = loads
-    work = _scratch(4, loads[0])
-    s = [*work]
+    s = _scratch(5, m)
     with np.errstate(over="ignore", invalid="ignore"):
-        extension, overload = _overload(loads, c, s)
+        overload = _overload(m, n, c, u, v, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[3])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[1])
+    root = np.log1p(excess, out=s[3])
     root *= -k.per_p
     np.exp(root, out=root)
-    bend = np.multiply(k.bend_soft, root, out=s[2])
-    np.multiply(bend, m1, out=u[0])
-    np.multiply(bend, m2, out=u[1])
-    np.multiply(k.turn_soft, m3, out=u[2])
-    u[2] -= np.multiply(k.untwist, extension, out=s[2])
-    u[2] *= root
-    shear = np.multiply(k.shear_soft, root, out=s[2])
-    np.multiply(n1, shear, out=v[0])
-    np.multiply(n2, shear, out=v[1])
-    np.multiply(extension, root, out=v[2])
+    u *= root
+    v *= root
     v[2] += 1
     return True
 
 
-def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
+def _strains(m: Array, n: Array, c: Constants, u: Array, v: Array) -> None:
     """(u, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m, n)."""
-    if _strains_plain(loads, c, u, v):
+    if _strains_plain(m, n, c, u, v):
         return
+    loads = [*m, *n]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
     *_, factor = _soften(y, c)
@@ -651,27 +649,26 @@ def _strains(loads: Rows, c: Constants, u: Array, v: Array) -> None:
 def _strains_at(m: Any, n: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
-        m3_extends, n3_extends, bend_load, shear_load, slack, turn_load, half_p, minus_per_p,
-        bend_soft, shear_soft, turn_soft, untwist, low, high,
+        bend_soft, turn_soft, shear_soft, m3_extends, n3_extends, per_gamma, slack_load, untwist,
+        half_p, minus_per_p, low, high,
     ) = c.plain.of_strains
     m1, m2, m3 = m
     n1, n2, n3 = n
+    w1, w2, turn = bend_soft * m1, bend_soft * m2, turn_soft * m3
+    w4, w5 = shear_soft * n1, shear_soft * n2
     extension = n3_extends * n3 - m3_extends * m3
     overload = (
-        bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
-        + shear_load * (n1 * n1 + n2 * n2)
+        per_gamma
+        * (slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn + n1 * w4 + n2 * w5)
     )
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3, n1, n2, n3)))
     ):
         raise _Extreme
+    twist = turn - untwist * extension
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    bend, shear = bend_soft * root, shear_soft * root
-    return (
-        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)),
-        (n1 * shear, n2 * shear, extension * root + 1),
-    )
+    return (root * w1, root * w2, root * twist), (root * w4, root * w5, extension * root + 1)
 
 
 def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -690,41 +687,32 @@ def strains(m: Given, n: Given, constants: Constants, out: Pair | None = None) -
     return u, v
 
 
-def _loads_plain(strains: Rows, c: Constants, m: Array, n: Array) -> bool:
+def _loads_plain(u: Array, v: Array, c: Constants, m: Array, n: Array) -> bool:
     """`_loads` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, _, v1, v2, _ = strains
-    work = _scratch(9, strains[0])
-    s = [*work]
+    s = _scratch(6, u)
     with np.errstate(over="ignore", invalid="ignore"):
-        torque, slack_pull, q = _q(strains, c, s)
+        q = _q(u, v, c, m, n, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[2])
+    growth = np.log(q, out=s[4])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[2])
+    hard = np.log1p(growth, out=s[4])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    bend = np.multiply(k.bending, hard, out=s[0])
-    np.multiply(bend, u1, out=m[0])
-    np.multiply(bend, u2, out=m[1])
-    np.multiply(hard, torque, out=m[2])
-    shear = np.multiply(k.shearing, hard, out=s[0])
-    np.multiply(shear, v1, out=n[0])
-    np.multiply(shear, v2, out=n[1])
-    np.multiply(k.untwist, torque, out=n[2])
-    np.add(slack_pull, n[2], out=n[2])
-    n[2] *= hard
+    m *= hard
+    n *= hard
     return True
 
 
-def _loads(strains: Rows, c: Constants, m: Array, n: Array) -> None:
+def _loads(u: Array, v: Array, c: Constants, m: Array, n: Array) -> None:
     """(m, n) = gamma (1 - Q^(p/2))^(-1/p) K (u, v - e3)."""
-    if _loads_plain(strains, c, m, n):
+    if _loads_plain(u, v, c, m, n):
         return
+    strains = [*u, *v]
     rest = [*strains[:5], strains[5] - 1]
     values, _, unscale, q = _rescaled(_reduce_strains, rest, c)
     kappa_1, kappa_2, lam_1, lam_2, torque, tension = values
@@ -740,18 +728,17 @@ def _loads(strains: Rows, c: Constants, m: Array, n: Array) -> None:
 def _loads_at(u: Any, v: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
     (
-        iota, turning, slack, bending, per_turning, shearing, half_p, gamma, minus_per_p, untwist,
+        bending, iota, turning, shearing, slack, untwist, per_turning, half_p, gamma, minus_per_p,
         low, high,
     ) = c.plain.of_loads
     u1, u2, u3 = u
     v1, v2, v3 = v
     stretch = v3 - 1
+    r1, r2, r4 = bending * u1, bending * u2, shearing * v1
     torque = iota * stretch + turning * u3
-    slack_pull = slack * stretch
-    q = (
-        bending * (u1 * u1 + u2 * u2) + per_turning * torque * torque
-        + shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
-    )
+    r5, pull = shearing * v2, slack * stretch
+    tension = pull + untwist * torque
+    q = per_turning * torque * torque + pull * stretch + r1 * u1 + r2 * u2 + r4 * v1 + r5 * v2
     if type(q) is not float or (
         not low < q < 1 and (q or low > high or any((u1, u2, u3, v1, v2, stretch)))
     ):
@@ -759,11 +746,7 @@ def _loads_at(u: Any, v: Any, c: Constants) -> Any:
     q = q or NOUGHT
     left = -expm1(half_p * log(q))
     hard = gamma * left**minus_per_p
-    bend, shear = bending * hard, shearing * hard
-    return (
-        (bend * u1, bend * u2, hard * torque),
-        (shear * v1, shear * v2, hard * (slack_pull + untwist * torque)),
-    )
+    return (hard * r1, hard * r2, hard * torque), (hard * r4, hard * r5, hard * tension)
 
 
 def loads(u: Given, v: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -783,8 +766,9 @@ def loads(u: Given, v: Given, constants: Constants, out: Pair | None = None) -> 
     return m, n
 
 
-def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
+def _stored_energy(u: Array, v: Array, c: Constants, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
+    strains = [*u, *v]
     rest = [*strains[:5], strains[5] - 1]
     _, _, x, _, q = _balanced(_reduce_strains, rest, c)
     q = _within_limit(q)
@@ -832,8 +816,9 @@ def stored_energy(u: Given, v: Given, constants: Constants, out: Array | None = 
     return w
 
 
-def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+def _complementary_energy(m: Array, n: Array, c: Constants, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
+    loads = [*m, *n]
     _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
     ratio, power, factor = _soften(y, c)
     strain = factor * y
@@ -885,51 +870,44 @@ def complementary_energy(
     return w_star
 
 
-def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
+def _stiffness_plain(u: Array, v: Array, c: Constants, stiff: Array) -> bool:
     """`_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, _, v1, v2, _ = strains
-    work = _scratch(12, strains[0])
-    s = [*work]
-    r = work[6:12]
+    s = _scratch(12, u)
+    w, s = s[:6], s[6:]
     with np.errstate(over="ignore", invalid="ignore"):
-        torque, slack_pull, q = _q(strains, c, s)
+        q = _q(u, v, c, w[:3], w[3:], s)
     if not _inside(q, k.within_q):
         return False
-    np.multiply(k.bending, u1, out=r[0])
-    np.multiply(k.bending, u2, out=r[1])
-    np.multiply(k.shearing, v1, out=r[3])
-    np.multiply(k.shearing, v2, out=r[4])
-    np.multiply(k.untwist, torque, out=r[5])
-    np.add(slack_pull, r[5], out=r[5])
-    growth = np.log(q, out=s[1])
+    growth = np.log(q, out=s[0])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[0])
+    hard = np.log1p(growth, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    steep = np.multiply(growth, hard, out=s[1])
+    steep = np.multiply(growth, hard, out=s[0])
     steep /= q
-    _spread(stiff, steep, r)
-    np.multiply(k.bending, hard, out=s[1])
-    stiff[0, 0] += s[1]
-    stiff[1, 1] += s[1]
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[1])
-    stiff[2, 5] += np.multiply(c.iota, hard, out=s[1])
-    np.multiply(k.shearing, hard, out=s[1])
-    stiff[3, 3] += s[1]
-    stiff[4, 4] += s[1]
-    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[0])
+    _spread(stiff, steep, w)
+    bend = np.multiply(k.bending, hard, out=s[0])
+    stiff[0, 0] += bend
+    stiff[1, 1] += bend
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
+    stiff[2, 5] += np.multiply(c.iota, hard, out=s[0])
+    shear = np.multiply(k.shearing, hard, out=s[0])
+    stiff[3, 3] += shear
+    stiff[4, 4] += shear
+    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[1])
     stiff[5, 2] = stiff[2, 5]
     return True
 
 
-def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness(u: Array, v: Array, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u, v - e3)/x."""
-    if _stiffness_plain(strains, c, stiff):
+    if _stiffness_plain(u, v, c, stiff):
         return
+    strains = [*u, *v]
     rest = [*strains[:5], strains[5] - 1]
     with np.errstate(over="ignore", invalid="ignore"):
         kappa_1, kappa_2, lam_1, lam_2, torque, tension, q = _reduce_strains(rest, c)
@@ -979,58 +957,49 @@ def stiffness(u: Given, v: Given, constants: Constants, out: Array | None = None
 
 
 def _loads_and_stiffness_plain(
-    strains: Rows, c: Constants, m: Array, n: Array, stiff: Array
+    u: Array, v: Array, c: Constants, m: Array, n: Array, stiff: Array
 ) -> bool:
     """`_loads_and_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, _, v1, v2, _ = strains
-    work = _scratch(12, strains[0])
-    s = [*work]
-    r = work[6:12]
+    s = _scratch(12, u)
+    w, s = s[:6], s[6:]
     with np.errstate(over="ignore", invalid="ignore"):
-        torque, slack_pull, q = _q(strains, c, s)
+        q = _q(u, v, c, w[:3], w[3:], s)
     if not _inside(q, k.within_q):
         return False
     growth = np.log(q, out=s[0])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[3])
+    hard = np.log1p(growth, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    bend = np.multiply(k.bending, hard, out=s[4])
-    np.multiply(bend, u1, out=m[0])
-    np.multiply(bend, u2, out=m[1])
-    np.multiply(hard, torque, out=m[2])
-    shear = np.multiply(k.shearing, hard, out=s[5])
-    np.multiply(shear, v1, out=n[0])
-    np.multiply(shear, v2, out=n[1])
-    np.multiply(k.untwist, torque, out=r[5])
-    np.add(slack_pull, r[5], out=r[5])
-    np.multiply(hard, r[5], out=n[2])
-    np.multiply(k.bending, u1, out=r[0])
-    np.multiply(k.bending, u2, out=r[1])
-    np.multiply(k.shearing, v1, out=r[3])
-    np.multiply(k.shearing, v2, out=r[4])
+    np.multiply(hard, w[:3], out=m)
+    np.multiply(hard, w[3:], out=n)
     steep = np.multiply(growth, hard, out=s[0])
     steep /= q
-    _spread(stiff, steep, r)
+    _spread(stiff, steep, w)
+    bend = np.multiply(k.bending, hard, out=s[0])
     stiff[0, 0] += bend
     stiff[1, 1] += bend
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[4])
-    stiff[2, 5] += np.multiply(c.iota, hard, out=s[4])
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
+    stiff[2, 5] += np.multiply(c.iota, hard, out=s[0])
+    shear = np.multiply(k.shearing, hard, out=s[0])
     stiff[3, 3] += shear
     stiff[4, 4] += shear
-    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[3])
+    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[1])
     stiff[5, 2] = stiff[2, 5]
     return True
 
 
-def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n: Array, stiff: Array) -> None:
+def _loads_and_stiffness(
+    u: Array, v: Array, c: Constants, m: Array, n: Array, stiff: Array
+) -> None:
     """(m, n) = factor K (u, v - e3) and D^2 W = factor (K + growth t t^T), as apart."""
-    if _loads_and_stiffness_plain(strains, c, m, n, stiff):
+    if _loads_and_stiffness_plain(u, v, c, m, n, stiff):
         return
+    strains = [*u, *v]
     rest = [*strains[:5], strains[5] - 1]
     values, size, _, unscale, q = _balanced(_reduce_strains, rest, c)
     kappa_1, kappa_2, lam_1, lam_2, torque, tension = values
@@ -1063,20 +1032,17 @@ def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, n: Array, stiff:
 def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
     """`loads_and_stiffness` of floats, where nothing is extreme."""
     (
-        iota, turning, slack, bending, shearing, untwist, per_turning, half_p, gamma, minus_per_p,
+        bending, iota, turning, shearing, slack, untwist, per_turning, half_p, gamma, minus_per_p,
         stretching, low, high,
     ) = c.plain.of_loads_and_stiffness
     u1, u2, u3 = u
     v1, v2, v3 = v
     stretch = v3 - 1
+    r1, r2, r4 = bending * u1, bending * u2, shearing * v1
     torque = iota * stretch + turning * u3
-    slack_pull, r1, r2 = slack * stretch, bending * u1, bending * u2
-    r4, r5 = shearing * v1, shearing * v2
-    r6 = slack_pull + untwist * torque
-    q = (
-        bending * (u1 * u1 + u2 * u2) + per_turning * torque * torque
-        + shearing * (v1 * v1 + v2 * v2) + slack_pull * stretch
-    )
+    r5, pull = shearing * v2, slack * stretch
+    tension = pull + untwist * torque
+    q = per_turning * torque * torque + pull * stretch + r1 * u1 + r2 * u2 + r4 * v1 + r5 * v2
     if type(q) is not float or (
         not low < q < 1 and (q or low > high or any((u1, u2, u3, v1, v2, stretch)))
     ):
@@ -1088,16 +1054,16 @@ def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
     steep = growth * hard / q
     bend, shear, steep_1 = bending * hard, shearing * hard, r1 * steep
     steep_2, steep_3, steep_4 = r2 * steep, steep * torque, r4 * steep
-    steep_5, steep_6 = r5 * steep, r6 * steep
+    steep_5, steep_6 = r5 * steep, steep * tension
     k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque
-    k14, k15, k16 = r4 * steep_1, r5 * steep_1, r6 * steep_1
+    k14, k15, k16 = r4 * steep_1, r5 * steep_1, steep_1 * tension
     k22, k23, k24 = bend + r2 * steep_2, steep_2 * torque, r4 * steep_2
-    k25, k26 = r5 * steep_2, r6 * steep_2
+    k25, k26 = r5 * steep_2, steep_2 * tension
     k33, k34, k35 = turning * hard + steep_3 * torque, r4 * steep_3, r5 * steep_3
-    k36 = iota * hard + r6 * steep_3
-    k44, k45, k46 = r4 * steep_4 + shear, r5 * steep_4, r6 * steep_4
-    k55, k56 = r5 * steep_5 + shear, r6 * steep_5
-    k66 = stretching * hard + r6 * steep_6
+    k36 = iota * hard + steep_3 * tension
+    k44, k45, k46 = r4 * steep_4 + shear, r5 * steep_4, steep_4 * tension
+    k55, k56 = r5 * steep_5 + shear, steep_5 * tension
+    k66 = stretching * hard + steep_6 * tension
     stiff = (
         (k11, k12, k13, k14, k15, k16),
         (k12, k22, k23, k24, k25, k26),
@@ -1106,7 +1072,7 @@ def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
         (k15, k25, k35, k45, k55, k56),
         (k16, k26, k36, k46, k56, k66),
     )
-    return (bend * u1, bend * u2, hard * torque), (shear * v1, shear * v2, hard * r6), stiff
+    return (hard * r1, hard * r2, hard * torque), (hard * r4, hard * r5, hard * tension), stiff
 
 
 def loads_and_stiffness(
@@ -1131,12 +1097,13 @@ def loads_and_stiffness(
     return m, n, stiff
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(m: Array, n: Array, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m, n)/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
+    loads = [*m, *n]
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, nu_1, nu_2, dilatation, twist, nu_3 = values
     _, power, factor = _soften(y, c)
@@ -1250,42 +1217,37 @@ def compliance(m: Given, n: Given, constants: Constants, out: Array | None = Non
     return soft
 
 
-def _strains_and_gap_plain(loads: Rows, c: Constants, u: Array, v: Array, limit_gap: Array) -> bool:
+def _strains_and_gap_plain(
+    m: Array, n: Array, c: Constants, u: Array, v: Array, limit_gap: Array
+) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3, n1, n2, _ = loads
-    work = _scratch(4, loads[0])
-    s = [*work]
+    s = _scratch(5, m)
     with np.errstate(over="ignore", invalid="ignore"):
-        extension, overload = _overload(loads, c, s)
+        overload = _overload(m, n, c, u, v, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[3])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[2])
+    root = np.log1p(excess, out=s[0])
     root *= -k.per_p
     np.exp(root, out=root)
-    bend = np.multiply(k.bend_soft, root, out=s[3])
-    np.multiply(bend, m1, out=u[0])
-    np.multiply(bend, m2, out=u[1])
-    np.multiply(k.turn_soft, m3, out=u[2])
-    u[2] -= np.multiply(k.untwist, extension, out=s[3])
-    u[2] *= root
-    shear = np.multiply(k.shear_soft, root, out=s[3])
-    np.multiply(n1, shear, out=v[0])
-    np.multiply(n2, shear, out=v[1])
-    np.multiply(extension, root, out=v[2])
+    u *= root
+    v *= root
     v[2] += 1
     np.add(excess, 1, out=limit_gap)
     np.divide(1, limit_gap, out=limit_gap)
     return True
 
 
-def _strains_and_gap(loads: Rows, c: Constants, u: Array, v: Array, limit_gap: Array) -> None:
+def _strains_and_gap(
+    m: Array, n: Array, c: Constants, u: Array, v: Array, limit_gap: Array
+) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    if _strains_and_gap_plain(loads, c, u, v, limit_gap):
+    if _strains_and_gap_plain(m, n, c, u, v, limit_gap):
         return
+    loads = [*m, *n]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, _, nu_1, nu_2, dilatation, twist, _ = values
     _, power, factor = _soften(y, c)
@@ -1302,26 +1264,28 @@ def _strains_and_gap(loads: Rows, c: Constants, u: Array, v: Array, limit_gap: A
 def _strains_and_gap_at(m: Any, n: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
     (
-        m3_extends, n3_extends, bend_load, shear_load, slack, turn_load, half_p, minus_per_p,
-        bend_soft, shear_soft, turn_soft, untwist, low, high,
+        bend_soft, turn_soft, shear_soft, m3_extends, n3_extends, per_gamma, slack_load, untwist,
+        half_p, minus_per_p, low, high,
     ) = c.plain.of_strains_and_gap
     m1, m2, m3 = m
     n1, n2, n3 = n
+    w1, w2, turn = bend_soft * m1, bend_soft * m2, turn_soft * m3
+    w4, w5 = shear_soft * n1, shear_soft * n2
     extension = n3_extends * n3 - m3_extends * m3
     overload = (
-        bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
-        + shear_load * (n1 * n1 + n2 * n2)
+        per_gamma
+        * (slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn + n1 * w4 + n2 * w5)
     )
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3, n1, n2, n3)))
     ):
         raise _Extreme
+    twist = turn - untwist * extension
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    bend, shear = bend_soft * root, shear_soft * root
     return (
-        (bend * m1, bend * m2, root * (turn_soft * m3 - untwist * extension)),
-        (n1 * shear, n2 * shear, extension * root + 1),
+        (root * w1, root * w2, root * twist),
+        (root * w4, root * w5, extension * root + 1),
         1 / (excess + 1),
     )
 
@@ -1345,50 +1309,46 @@ def strains_and_gap(m: Given, n: Given, constants: Constants, out: Triple | None
     return u, v, limit_gap
 
 
-def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
+def _stiffness_at_loads_plain(m: Array, n: Array, c: Constants, stiff: Array) -> bool:
     """`_stiffness_at_loads` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3, n1, n2, n3 = loads
-    work = _scratch(10, loads[0])
-    s = [*work]
-    h = work[4:10]
+    s = _scratch(16, m)
+    w, s = s[:6], s[6:]
+    h = s[4:10]
     with np.errstate(over="ignore", invalid="ignore"):
-        *_, overload = _overload(loads, c, s)
+        overload = _overload(m, n, c, w[:3], w[3:], s)
     if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[0])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    hard = np.log1p(excess, out=s[2])
+    hard = np.log1p(excess, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     lift = np.multiply(excess, hard, out=s[0])
     lift /= overload
-    np.multiply(k.per_gamma, m1, out=h[0])
-    np.multiply(k.per_gamma, m2, out=h[1])
-    np.multiply(k.per_gamma, m3, out=h[2])
-    np.multiply(k.per_gamma, n1, out=h[3])
-    np.multiply(k.per_gamma, n2, out=h[4])
-    np.multiply(k.per_gamma, n3, out=h[5])
+    np.multiply(k.per_gamma, m, out=h[:3])
+    np.multiply(k.per_gamma, n, out=h[3:])
     _spread(stiff, lift, h)
-    np.multiply(k.bending, hard, out=s[0])
-    stiff[0, 0] += s[0]
-    stiff[1, 1] += s[0]
+    bend = np.multiply(k.bending, hard, out=s[0])
+    stiff[0, 0] += bend
+    stiff[1, 1] += bend
     stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
     stiff[2, 5] += np.multiply(c.iota, hard, out=s[0])
-    np.multiply(k.shearing, hard, out=s[0])
-    stiff[3, 3] += s[0]
-    stiff[4, 4] += s[0]
-    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[2])
+    shear = np.multiply(k.shearing, hard, out=s[0])
+    stiff[3, 3] += shear
+    stiff[4, 4] += shear
+    stiff[5, 5] += np.multiply(k.stretching, hard, out=s[1])
     stiff[5, 2] = stiff[2, 5]
     return True
 
 
-def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness_at_loads(m: Array, n: Array, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m, n)/y, y^2 = Q*."""
-    if _stiffness_at_loads_plain(loads, c, stiff):
+    if _stiffness_at_loads_plain(m, n, c, stiff):
         return
+    loads = [*m, *n]
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3, nu_1, nu_2, _, _, nu_3 = values
     rise, factor = _harden(y, c)
@@ -1415,15 +1375,17 @@ def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
 def _stiffness_at_loads_at(m: Any, n: Any, c: Constants) -> Any:
     """`stiffness_at_loads` of floats, where nothing is extreme."""
     (
-        m3_extends, n3_extends, bend_load, shear_load, slack, turn_load, half_p, gamma, per_p,
-        per_gamma, bending, turning, iota, shearing, stretching, low, high,
+        bend_soft, turn_soft, shear_soft, m3_extends, n3_extends, per_gamma, slack_load, half_p,
+        gamma, per_p, bending, shearing, turning, iota, stretching, low, high,
     ) = c.plain.of_stiffness_at_loads
     m1, m2, m3 = m
     n1, n2, n3 = n
+    w1, w2, turn = bend_soft * m1, bend_soft * m2, turn_soft * m3
+    w4, w5 = shear_soft * n1, shear_soft * n2
     extension = n3_extends * n3 - m3_extends * m3
     overload = (
-        bend_load * (m1 * m1 + m2 * m2) + slack * extension * extension + turn_load * m3 * m3
-        + shear_load * (n1 * n1 + n2 * n2)
+        per_gamma
+        * (slack_load * extension * extension + m1 * w1 + m2 * w2 + m3 * turn + n1 * w4 + n2 * w5)
     )
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3, n1, n2, n3)))
@@ -1435,16 +1397,17 @@ def _stiffness_at_loads_at(m: Any, n: Any, c: Constants) -> Any:
     lift = excess * hard / overload
     h1, h2, h3 = per_gamma * m1, per_gamma * m2, per_gamma * m3
     h4, h5, h6 = per_gamma * n1, per_gamma * n2, per_gamma * n3
-    lift_1, lift_2, lift_3 = h1 * lift, h2 * lift, h3 * lift
-    lift_4, lift_5, lift_6 = h4 * lift, h5 * lift, h6 * lift
-    k11, k12, k13 = bending * hard + h1 * lift_1, h2 * lift_1, h3 * lift_1
+    bend, shear, lift_1 = bending * hard, shearing * hard, h1 * lift
+    lift_2, lift_3, lift_4 = h2 * lift, h3 * lift, h4 * lift
+    lift_5, lift_6 = h5 * lift, h6 * lift
+    k11, k12, k13 = bend + h1 * lift_1, h2 * lift_1, h3 * lift_1
     k14, k15, k16 = h4 * lift_1, h5 * lift_1, h6 * lift_1
-    k22, k23, k24 = bending * hard + h2 * lift_2, h3 * lift_2, h4 * lift_2
+    k22, k23, k24 = bend + h2 * lift_2, h3 * lift_2, h4 * lift_2
     k25, k26 = h5 * lift_2, h6 * lift_2
     k33, k34, k35 = h3 * lift_3 + turning * hard, h4 * lift_3, h5 * lift_3
     k36 = h6 * lift_3 + iota * hard
-    k44, k45, k46 = h4 * lift_4 + shearing * hard, h5 * lift_4, h6 * lift_4
-    k55, k56 = h5 * lift_5 + shearing * hard, h6 * lift_5
+    k44, k45, k46 = h4 * lift_4 + shear, h5 * lift_4, h6 * lift_4
+    k55, k56 = h5 * lift_5 + shear, h6 * lift_5
     k66 = h6 * lift_6 + stretching * hard
     return (
         (k11, k12, k13, k14, k15, k16),

@@ -18,15 +18,15 @@ in plain Python, where nothing is extreme. They agree with the arrays' answers w
 the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
-    strains                16    4    0    4
-    loads                  17    4    0    5
+    strains                16    4    0    6
+    loads                  16    4    0    6
     stored_energy          19    4    1    8
     complementary_energy   28    6    1   10
-    stiffness              36    4    0    7
-    loads_and_stiffness    38    4    0    8
+    stiffness              33    4    0    8
+    loads_and_stiffness    36    4    0    8
     compliance             64    4    0   22
-    strains_and_gap        18    4    0    4
-    stiffness_at_loads     35    4    0    7
+    strains_and_gap        18    4    0    6
+    stiffness_at_loads     36    4    0   11
 """
 
 from __future__ import annotations
@@ -151,14 +151,12 @@ class Plain:
 
     def __init__(self, c: Constants) -> None:
         alpha, beta, gamma, p = (Fraction(v) for v in (c.alpha, c.beta, c.gamma, c.p))
-        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
-        self.turn_load = _rounded(1 / beta**2 / gamma**2)
         self.bend_soft = _rounded(1 / alpha**2 / gamma)
         self.turn_soft = _rounded(1 / beta**2 / gamma)
+        self.per_gamma = _rounded(1 / gamma)
         self.per_p = _rounded(1 / p)
         self.bending = _rounded(alpha**2)
         self.turning = _rounded(beta**2)
-        self.per_gamma = _rounded(1 / gamma)
         used = [v for v in (c.gamma, *vars(self).values()) if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
         self.within_q: dict[Any, tuple[float, float]] = {}
@@ -172,16 +170,16 @@ class Plain:
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
             self.within_q[kind] = q if even else (1.0, 0.0)
         self.of_strains = (
-            self.bend_load, self.turn_load, 0.5 * c.p, -self.per_p, self.bend_soft, self.turn_soft,
+            self.bend_soft, self.turn_soft, self.per_gamma, 0.5 * c.p, -self.per_p,
             *self.room[DOUBLE],
         )
         self.of_loads = (
-            self.turning, self.bending, 0.5 * c.p, c.gamma, -self.per_p, *self.room[DOUBLE],
+            self.bending, self.turning, 0.5 * c.p, c.gamma, -self.per_p, *self.room[DOUBLE],
         )
         self.of_loads_and_stiffness = self.of_loads
         self.of_strains_and_gap = self.of_strains
         self.of_stiffness_at_loads = (
-            self.bend_load, self.turn_load, 0.5 * c.p, c.gamma, self.per_p, self.per_gamma,
+            self.bend_soft, self.turn_soft, self.per_gamma, 0.5 * c.p, c.gamma, self.per_p,
             self.bending, self.turning, *self.room[DOUBLE],
         )
 
@@ -419,24 +417,25 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = out is None or all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
-    flat = [
-        (r if direct else _fresh(r.shape, r.dtype)).reshape(*HEADS[name], points)
-        for name, r in zip(names, results, strict=True)
-    ]
+    given = arrays
+    flat = results if direct else [_fresh(r.shape, r.dtype) for r in results]
+    if len(shape) != 1:
+        given = [a.reshape(*HEADS[name], points) for name, a in zip(inputs, given, strict=True)]
+        flat = [r.reshape(*HEADS[name], points) for name, r in zip(names, flat, strict=True)]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            rows = [row for a in given for row in a[:, part]]
+            block = [a[..., part] for a in given]
             try:
-                body(rows, c, *(array[..., part] for array in flat))
+                body(*block, c, *(array[..., part] for array in flat))
             except _PastLimit:
-                raise _past_limit([row for a in given for row in a], c, shape) from None
+                rows = [row for a in given for row in np.atleast_2d(a)]
+                raise _past_limit(rows, c, shape) from None
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -474,14 +473,18 @@ def _numbers(array: Array) -> Any:
 
 
 def _scratch(count: int, like: Array) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = (like.size // LINE + 1) * LINE
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it.
+
+    Short ones follow each other, to be worked on as one; of long ones NumPy would make copies.
+    """
+    points = like.shape[-1]
+    length = points if points < 512 else (points // LINE + 1) * LINE
     needed = count * length * like.itemsize
     memory = getattr(KEPT, "memory", None)
     if memory is None or len(memory) < needed:
         memory = KEPT.memory = _fresh((needed,), np.uint8)
     rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
-    return rows[:, : like.size]
+    return rows[:, :points]
 
 
 def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
@@ -490,29 +493,28 @@ def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
     return bool(low < square[square.argmin()] and square[square.argmax()] < high)
 
 
-def _overload(loads: Rows, c: Constants, s: Rows) -> Array:
-    """Q*/gamma^2 as a sum of squares."""
+def _overload(m: Array, c: Constants, u: Array, s: Array) -> Array:
+    """Q*/gamma^2 as a sum of squares; the linear rod's strains over gamma in u."""
     k = c.plain
-    m1, m2, m3 = loads
-    overload = np.square(m1, out=s[0])
-    overload += np.square(m2, out=s[1])
-    overload *= k.bend_load
-    np.square(m3, out=s[1])
-    s[1] *= k.turn_load
-    overload += s[1]
+    x = s[:3]
+    np.multiply(k.bend_soft, m[:2], out=u[:2])
+    np.multiply(k.turn_soft, m[2], out=u[2])
+    np.multiply(m, u, out=x)
+    overload: Array = np.add(x[0], x[1], out=s[3])
+    overload += x[2]
+    overload *= k.per_gamma
     return overload
 
 
-def _q(strains: Rows, c: Constants, s: Rows) -> Array:
-    """Q as a sum of squares."""
+def _q(u: Array, c: Constants, m: Array, s: Array) -> Array:
+    """Q as a sum of squares; the linear rod's loads over gamma in m."""
     k = c.plain
-    u1, u2, u3 = strains
-    q = np.square(u1, out=s[0])
-    q += np.square(u2, out=s[1])
-    q *= k.bending
-    np.square(u3, out=s[1])
-    s[1] *= k.turning
-    q += s[1]
+    x = s[:3]
+    np.multiply(k.bending, u[:2], out=m[:2])
+    np.multiply(k.turning, u[2], out=m[2])
+    np.multiply(m, u, out=x)
+    q: Array = np.add(x[0], x[1], out=s[3])
+    q += x[2]
     return q
 
 
@@ -523,34 +525,29 @@ def _spread(matrix: Array, weight: Array, vector: Array) -> None:
         matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
-def _strains_plain(loads: Rows, c: Constants, u: Array) -> bool:
+def _strains_plain(m: Array, c: Constants, u: Array) -> bool:
     """`_strains` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3 = loads
-    work = _scratch(2, loads[0])
-    s = [*work]
+    s = _scratch(4, m)
     with np.errstate(over="ignore", invalid="ignore"):
-        overload = _overload(loads, c, s)
+        overload = _overload(m, c, u, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[0])
+    excess = np.log(overload, out=s[3])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[0])
+    root = np.log1p(excess, out=s[3])
     root *= -k.per_p
     np.exp(root, out=root)
-    bend = np.multiply(k.bend_soft, root, out=s[1])
-    np.multiply(bend, m1, out=u[0])
-    np.multiply(bend, m2, out=u[1])
-    np.multiply(k.turn_soft, m3, out=u[2])
-    u[2] *= root
+    u *= root
     return True
 
 
-def _strains(loads: Rows, c: Constants, u: Array) -> None:
+def _strains(m: Array, c: Constants, u: Array) -> None:
     """u = (gamma^p + Q*^(p/2))^(-1/p) K^-1 m."""
-    if _strains_plain(loads, c, u):
+    if _strains_plain(m, c, u):
         return
+    loads = [*m]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3 = values
     *_, factor = _soften(y, c)
@@ -561,17 +558,17 @@ def _strains(loads: Rows, c: Constants, u: Array) -> None:
 
 def _strains_at(m: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
-    bend_load, turn_load, half_p, minus_per_p, bend_soft, turn_soft, low, high = c.plain.of_strains
+    bend_soft, turn_soft, per_gamma, half_p, minus_per_p, low, high = c.plain.of_strains
     m1, m2, m3 = m
-    overload = bend_load * (m1 * m1 + m2 * m2) + turn_load * m3 * m3
+    w1, w2, twist = bend_soft * m1, bend_soft * m2, turn_soft * m3
+    overload = per_gamma * (m1 * w1 + m2 * w2 + m3 * twist)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3)))
     ):
         raise _Extreme
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    bend = bend_soft * root
-    return (bend * m1, bend * m2, turn_soft * m3 * root)
+    return (root * w1, root * w2, root * twist)
 
 
 def strains(m: Given, constants: Constants, out: Array | None = None) -> Array:
@@ -590,36 +587,31 @@ def strains(m: Given, constants: Constants, out: Array | None = None) -> Array:
     return u
 
 
-def _loads_plain(strains: Rows, c: Constants, m: Array) -> bool:
+def _loads_plain(u: Array, c: Constants, m: Array) -> bool:
     """`_loads` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, u3 = strains
-    work = _scratch(2, strains[0])
-    s = [*work]
+    s = _scratch(4, u)
     with np.errstate(over="ignore", invalid="ignore"):
-        q = _q(strains, c, s)
+        q = _q(u, c, m, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[0])
+    growth = np.log(q, out=s[3])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[0])
+    hard = np.log1p(growth, out=s[3])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    bend = np.multiply(k.bending, hard, out=s[1])
-    np.multiply(bend, u1, out=m[0])
-    np.multiply(bend, u2, out=m[1])
-    torque = np.multiply(k.turning, u3, out=s[1])
-    np.multiply(hard, torque, out=m[2])
+    m *= hard
     return True
 
 
-def _loads(strains: Rows, c: Constants, m: Array) -> None:
+def _loads(u: Array, c: Constants, m: Array) -> None:
     """m = gamma (1 - Q^(p/2))^(-1/p) K u."""
-    if _loads_plain(strains, c, m):
+    if _loads_plain(u, c, m):
         return
+    strains = [*u]
     values, _, unscale, q = _rescaled(_reduce_strains, strains, c)
     kappa_1, kappa_2, kappa_3 = values
     q = _within_limit(q)
@@ -631,17 +623,16 @@ def _loads(strains: Rows, c: Constants, m: Array) -> None:
 
 def _loads_at(u: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
-    turning, bending, half_p, gamma, minus_per_p, low, high = c.plain.of_loads
+    bending, turning, half_p, gamma, minus_per_p, low, high = c.plain.of_loads
     u1, u2, u3 = u
-    torque = turning * u3
-    q = bending * (u1 * u1 + u2 * u2) + turning * u3 * u3
+    r1, r2, torque = bending * u1, bending * u2, turning * u3
+    q = r1 * u1 + r2 * u2 + torque * u3
     if type(q) is not float or (not low < q < 1 and (q or low > high or any((u1, u2, u3)))):
         raise _Extreme
     q = q or NOUGHT
     left = -expm1(half_p * log(q))
     hard = gamma * left**minus_per_p
-    bend = bending * hard
-    return (bend * u1, bend * u2, hard * torque)
+    return (hard * r1, hard * r2, hard * torque)
 
 
 def loads(u: Given, constants: Constants, out: Array | None = None) -> Array:
@@ -661,8 +652,9 @@ def loads(u: Given, constants: Constants, out: Array | None = None) -> Array:
     return m
 
 
-def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
+def _stored_energy(u: Array, c: Constants, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
+    strains = [*u]
     _, _, x, _, q = _balanced(_reduce_strains, strains, c)
     q = _within_limit(q)
     _, depth, factor = _stiffen(q, c)
@@ -702,8 +694,9 @@ def stored_energy(u: Given, constants: Constants, out: Array | None = None) -> A
     return w
 
 
-def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+def _complementary_energy(m: Array, c: Constants, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
+    loads = [*m]
     _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
     ratio, power, factor = _soften(y, c)
     strain = factor * y
@@ -745,42 +738,38 @@ def complementary_energy(m: Given, constants: Constants, out: Array | None = Non
     return w_star
 
 
-def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
+def _stiffness_plain(u: Array, c: Constants, stiff: Array) -> bool:
     """`_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, u3 = strains
-    work = _scratch(6, strains[0])
-    s = [*work]
-    r = work[2:5]
+    s = _scratch(7, u)
+    w, s = s[:3], s[3:]
     with np.errstate(over="ignore", invalid="ignore"):
-        q = _q(strains, c, s)
+        q = _q(u, c, w, s)
     if not _inside(q, k.within_q):
         return False
-    np.multiply(k.turning, u3, out=r[2])
-    np.multiply(k.bending, u1, out=r[0])
-    np.multiply(k.bending, u2, out=r[1])
-    growth = np.log(q, out=s[1])
+    growth = np.log(q, out=s[0])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[5])
+    hard = np.log1p(growth, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    steep = np.multiply(growth, hard, out=s[1])
+    steep = np.multiply(growth, hard, out=s[0])
     steep /= q
-    _spread(stiff, steep, r)
-    np.multiply(k.bending, hard, out=s[1])
-    stiff[0, 0] += s[1]
-    stiff[1, 1] += s[1]
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
+    _spread(stiff, steep, w)
+    bend = np.multiply(k.bending, hard, out=s[0])
+    stiff[0, 0] += bend
+    stiff[1, 1] += bend
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[1])
     return True
 
 
-def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness(u: Array, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K u/x."""
-    if _stiffness_plain(strains, c, stiff):
+    if _stiffness_plain(u, c, stiff):
         return
+    strains = [*u]
     with np.errstate(over="ignore", invalid="ignore"):
         kappa_1, kappa_2, kappa_3, q = _reduce_strains(strains, c)
     q = _within_limit(q)
@@ -820,45 +809,39 @@ def stiffness(u: Given, constants: Constants, out: Array | None = None) -> Array
     return stiff
 
 
-def _loads_and_stiffness_plain(strains: Rows, c: Constants, m: Array, stiff: Array) -> bool:
+def _loads_and_stiffness_plain(u: Array, c: Constants, m: Array, stiff: Array) -> bool:
     """`_loads_and_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u1, u2, u3 = strains
-    work = _scratch(7, strains[0])
-    s = [*work]
-    r = work[2:5]
+    s = _scratch(7, u)
+    w, s = s[:3], s[3:]
     with np.errstate(over="ignore", invalid="ignore"):
-        q = _q(strains, c, s)
+        q = _q(u, c, w, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[1])
+    growth = np.log(q, out=s[0])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[5])
+    hard = np.log1p(growth, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    bend = np.multiply(k.bending, hard, out=s[6])
-    np.multiply(bend, u1, out=m[0])
-    np.multiply(bend, u2, out=m[1])
-    np.multiply(k.turning, u3, out=r[2])
-    np.multiply(hard, r[2], out=m[2])
-    np.multiply(k.bending, u1, out=r[0])
-    np.multiply(k.bending, u2, out=r[1])
-    steep = np.multiply(growth, hard, out=s[1])
+    np.multiply(hard, w, out=m)
+    steep = np.multiply(growth, hard, out=s[0])
     steep /= q
-    _spread(stiff, steep, r)
+    _spread(stiff, steep, w)
+    bend = np.multiply(k.bending, hard, out=s[0])
     stiff[0, 0] += bend
     stiff[1, 1] += bend
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[1])
     return True
 
 
-def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, stiff: Array) -> None:
+def _loads_and_stiffness(u: Array, c: Constants, m: Array, stiff: Array) -> None:
     """m = factor K u and D^2 W = factor (K + growth t t^T), as apart."""
-    if _loads_and_stiffness_plain(strains, c, m, stiff):
+    if _loads_and_stiffness_plain(u, c, m, stiff):
         return
+    strains = [*u]
     values, size, _, unscale, q = _balanced(_reduce_strains, strains, c)
     kappa_1, kappa_2, kappa_3 = values
     q = _within_limit(q)
@@ -880,10 +863,10 @@ def _loads_and_stiffness(strains: Rows, c: Constants, m: Array, stiff: Array) ->
 
 def _loads_and_stiffness_at(u: Any, c: Constants) -> Any:
     """`loads_and_stiffness` of floats, where nothing is extreme."""
-    turning, bending, half_p, gamma, minus_per_p, low, high = c.plain.of_loads_and_stiffness
+    bending, turning, half_p, gamma, minus_per_p, low, high = c.plain.of_loads_and_stiffness
     u1, u2, u3 = u
-    torque, r1, r2 = turning * u3, bending * u1, bending * u2
-    q = bending * (u1 * u1 + u2 * u2) + turning * u3 * u3
+    r1, r2, torque = bending * u1, bending * u2, turning * u3
+    q = r1 * u1 + r2 * u2 + torque * u3
     if type(q) is not float or (not low < q < 1 and (q or low > high or any((u1, u2, u3)))):
         raise _Extreme
     q = q or NOUGHT
@@ -901,7 +884,7 @@ def _loads_and_stiffness_at(u: Any, c: Constants) -> Any:
         (k12, k22, k23),
         (k13, k23, k33),
     )
-    return (bend * u1, bend * u2, hard * torque), stiff
+    return (hard * r1, hard * r2, hard * torque), stiff
 
 
 def loads_and_stiffness(u: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -922,12 +905,13 @@ def loads_and_stiffness(u: Given, constants: Constants, out: Pair | None = None)
     return m, stiff
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(m: Array, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 m/y.
 
     With (a, b) the reduced load as a unit vector,
     the entries that would cancel are sums of squares.
     """
+    loads = [*m]
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3 = values
     _, power, factor = _soften(y, c)
@@ -1001,36 +985,31 @@ def compliance(m: Given, constants: Constants, out: Array | None = None) -> Arra
     return soft
 
 
-def _strains_and_gap_plain(loads: Rows, c: Constants, u: Array, limit_gap: Array) -> bool:
+def _strains_and_gap_plain(m: Array, c: Constants, u: Array, limit_gap: Array) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3 = loads
-    work = _scratch(3, loads[0])
-    s = [*work]
+    s = _scratch(4, m)
     with np.errstate(over="ignore", invalid="ignore"):
-        overload = _overload(loads, c, s)
+        overload = _overload(m, c, u, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[0])
+    excess = np.log(overload, out=s[3])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[1])
+    root = np.log1p(excess, out=s[0])
     root *= -k.per_p
     np.exp(root, out=root)
-    bend = np.multiply(k.bend_soft, root, out=s[2])
-    np.multiply(bend, m1, out=u[0])
-    np.multiply(bend, m2, out=u[1])
-    np.multiply(k.turn_soft, m3, out=u[2])
-    u[2] *= root
+    u *= root
     np.add(excess, 1, out=limit_gap)
     np.divide(1, limit_gap, out=limit_gap)
     return True
 
 
-def _strains_and_gap(loads: Rows, c: Constants, u: Array, limit_gap: Array) -> None:
+def _strains_and_gap(m: Array, c: Constants, u: Array, limit_gap: Array) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    if _strains_and_gap_plain(loads, c, u, limit_gap):
+    if _strains_and_gap_plain(m, c, u, limit_gap):
         return
+    loads = [*m]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3 = values
     _, power, factor = _soften(y, c)
@@ -1043,19 +1022,17 @@ def _strains_and_gap(loads: Rows, c: Constants, u: Array, limit_gap: Array) -> N
 
 def _strains_and_gap_at(m: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
-    (
-        bend_load, turn_load, half_p, minus_per_p, bend_soft, turn_soft, low, high,
-    ) = c.plain.of_strains_and_gap
+    bend_soft, turn_soft, per_gamma, half_p, minus_per_p, low, high = c.plain.of_strains_and_gap
     m1, m2, m3 = m
-    overload = bend_load * (m1 * m1 + m2 * m2) + turn_load * m3 * m3
+    w1, w2, twist = bend_soft * m1, bend_soft * m2, turn_soft * m3
+    overload = per_gamma * (m1 * w1 + m2 * w2 + m3 * twist)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3)))
     ):
         raise _Extreme
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    bend = bend_soft * root
-    return (bend * m1, bend * m2, turn_soft * m3 * root), 1 / (excess + 1)
+    return (root * w1, root * w2, root * twist), 1 / (excess + 1)
 
 
 def strains_and_gap(m: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -1075,41 +1052,39 @@ def strains_and_gap(m: Given, constants: Constants, out: Pair | None = None) -> 
     return u, limit_gap
 
 
-def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
+def _stiffness_at_loads_plain(m: Array, c: Constants, stiff: Array) -> bool:
     """`_stiffness_at_loads` where nothing is extreme; else False."""
     k = c.plain
-    m1, m2, m3 = loads
-    work = _scratch(6, loads[0])
-    s = [*work]
-    h = work[2:5]
+    s = _scratch(10, m)
+    w, s = s[:3], s[3:]
+    h = s[4:7]
     with np.errstate(over="ignore", invalid="ignore"):
-        overload = _overload(loads, c, s)
+        overload = _overload(m, c, w, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[0])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    hard = np.log1p(excess, out=s[5])
+    hard = np.log1p(excess, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    lift = np.multiply(excess, hard, out=s[1])
+    lift = np.multiply(excess, hard, out=s[0])
     lift /= overload
-    np.multiply(k.per_gamma, m1, out=h[0])
-    np.multiply(k.per_gamma, m2, out=h[1])
-    np.multiply(k.per_gamma, m3, out=h[2])
+    np.multiply(k.per_gamma, m, out=h)
     _spread(stiff, lift, h)
-    np.multiply(k.bending, hard, out=s[1])
-    stiff[0, 0] += s[1]
-    stiff[1, 1] += s[1]
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[5])
+    bend = np.multiply(k.bending, hard, out=s[0])
+    stiff[0, 0] += bend
+    stiff[1, 1] += bend
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[1])
     return True
 
 
-def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness_at_loads(m: Array, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) m/y, y^2 = Q*."""
-    if _stiffness_at_loads_plain(loads, c, stiff):
+    if _stiffness_at_loads_plain(m, c, stiff):
         return
+    loads = [*m]
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_1, mu_2, mu_3 = values
     rise, factor = _harden(y, c)
@@ -1128,10 +1103,11 @@ def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
 def _stiffness_at_loads_at(m: Any, c: Constants) -> Any:
     """`stiffness_at_loads` of floats, where nothing is extreme."""
     (
-        bend_load, turn_load, half_p, gamma, per_p, per_gamma, bending, turning, low, high,
+        bend_soft, turn_soft, per_gamma, half_p, gamma, per_p, bending, turning, low, high,
     ) = c.plain.of_stiffness_at_loads
     m1, m2, m3 = m
-    overload = bend_load * (m1 * m1 + m2 * m2) + turn_load * m3 * m3
+    w1, w2, twist = bend_soft * m1, bend_soft * m2, turn_soft * m3
+    overload = per_gamma * (m1 * w1 + m2 * w2 + m3 * twist)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m1, m2, m3)))
     ):
@@ -1141,9 +1117,10 @@ def _stiffness_at_loads_at(m: Any, c: Constants) -> Any:
     hard = gamma * (excess + 1)**per_p
     lift = excess * hard / overload
     h1, h2, h3 = per_gamma * m1, per_gamma * m2, per_gamma * m3
-    lift_1, lift_2, lift_3 = h1 * lift, h2 * lift, h3 * lift
-    k11, k12, k13 = bending * hard + h1 * lift_1, h2 * lift_1, h3 * lift_1
-    k22, k23 = bending * hard + h2 * lift_2, h3 * lift_2
+    bend, lift_1, lift_2 = bending * hard, h1 * lift, h2 * lift
+    lift_3 = h3 * lift
+    k11, k12, k13 = bend + h1 * lift_1, h2 * lift_1, h3 * lift_1
+    k22, k23 = bend + h2 * lift_2, h3 * lift_2
     k33 = h3 * lift_3 + turning * hard
     return (
         (k11, k12, k13),

@@ -18,15 +18,15 @@ in plain Python, where nothing is extreme. They agree with the arrays' answers w
 the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
-    strains                19    4    0    6
-    loads                  19    4    0    7
+    strains                17    4    0    6
+    loads                  17    4    0    7
     stored_energy          20    4    1    9
     complementary_energy   28    6    1   10
-    stiffness              37    4    0    8
-    loads_and_stiffness    40    4    0   10
+    stiffness              35    4    0   10
+    loads_and_stiffness    38    4    0   10
     compliance             64    4    0   22
-    strains_and_gap        21    4    0    6
-    stiffness_at_loads     37    4    0    8
+    strains_and_gap        19    4    0    6
+    stiffness_at_loads     37    4    0   12
 """
 
 from __future__ import annotations
@@ -157,17 +157,15 @@ class Plain:
 
     def __init__(self, c: Constants) -> None:
         alpha, gamma, zeta, eta, p = (Fraction(v) for v in (c.alpha, c.gamma, c.zeta, c.eta, c.p))
-        self.bend_load = _rounded(1 / alpha**2 / gamma**2)
-        self.shear_load = _rounded(1 / gamma**2 / zeta**2)
-        self.slack = _rounded(eta**2)
-        self.n3_extends = _rounded(1 / eta**2 / gamma)
         self.bend_soft = _rounded(1 / alpha**2 / gamma)
         self.shear_soft = _rounded(1 / gamma / zeta**2)
+        self.n3_extends = _rounded(1 / eta**2 / gamma)
+        self.per_gamma = _rounded(1 / gamma)
         self.per_p = _rounded(1 / p)
         self.bending = _rounded(alpha**2)
         self.shearing = _rounded(zeta**2)
+        self.slack = _rounded(eta**2)
         self.stretching = _rounded(eta**2)
-        self.per_gamma = _rounded(1 / gamma)
         used = [v for v in (c.gamma, *vars(self).values()) if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
         self.within_q: dict[Any, tuple[float, float]] = {}
@@ -181,22 +179,21 @@ class Plain:
             q = (math.exp(max(-2 * math.log(span) / c.p, -math.log(span))), 0.9990234375)
             self.within_q[kind] = q if even else (1.0, 0.0)
         self.of_strains = (
-            self.n3_extends, self.bend_load, self.shear_load, self.slack, 0.5 * c.p, -self.per_p,
-            self.bend_soft, self.shear_soft, *self.room[DOUBLE],
+            self.bend_soft, self.shear_soft, self.n3_extends, self.per_gamma, 0.5 * c.p,
+            -self.per_p, *self.room[DOUBLE],
         )
         self.of_loads = (
-            self.slack, self.bending, self.shearing, 0.5 * c.p, c.gamma, -self.per_p,
+            self.bending, self.shearing, self.slack, 0.5 * c.p, c.gamma, -self.per_p,
             *self.room[DOUBLE],
         )
         self.of_loads_and_stiffness = (
-            self.slack, self.bending, self.shearing, 0.5 * c.p, c.gamma, -self.per_p,
+            self.bending, self.shearing, self.slack, 0.5 * c.p, c.gamma, -self.per_p,
             self.stretching, *self.room[DOUBLE],
         )
         self.of_strains_and_gap = self.of_strains
         self.of_stiffness_at_loads = (
-            self.n3_extends, self.bend_load, self.shear_load, self.slack, 0.5 * c.p, c.gamma,
-            self.per_p, self.per_gamma, self.bending, self.shearing, self.stretching,
-            *self.room[DOUBLE],
+            self.bend_soft, self.shear_soft, self.n3_extends, self.per_gamma, 0.5 * c.p, c.gamma,
+            self.per_p, self.bending, self.shearing, self.stretching, *self.room[DOUBLE],
         )
 
 
@@ -434,24 +431,25 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = out is None or all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
-    flat = [
-        (r if direct else _fresh(r.shape, r.dtype)).reshape(*HEADS[name], points)
-        for name, r in zip(names, results, strict=True)
-    ]
+    given = arrays
+    flat = results if direct else [_fresh(r.shape, r.dtype) for r in results]
+    if len(shape) != 1:
+        given = [a.reshape(*HEADS[name], points) for name, a in zip(inputs, given, strict=True)]
+        flat = [r.reshape(*HEADS[name], points) for name, r in zip(names, flat, strict=True)]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            rows = [row for a in given for row in a[:, part]]
+            block = [a[..., part] for a in given]
             try:
-                body(rows, c, *(array[..., part] for array in flat))
+                body(*block, c, *(array[..., part] for array in flat))
             except _PastLimit:
-                raise _past_limit([row for a in given for row in a], c, shape) from None
+                rows = [row for a in given for row in np.atleast_2d(a)]
+                raise _past_limit(rows, c, shape) from None
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -489,14 +487,18 @@ def _numbers(array: Array) -> Any:
 
 
 def _scratch(count: int, like: Array) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = (like.size // LINE + 1) * LINE
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it.
+
+    Short ones follow each other, to be worked on as one; of long ones NumPy would make copies.
+    """
+    points = like.shape[-1]
+    length = points if points < 512 else (points // LINE + 1) * LINE
     needed = count * length * like.itemsize
     memory = getattr(KEPT, "memory", None)
     if memory is None or len(memory) < needed:
         memory = KEPT.memory = _fresh((needed,), np.uint8)
     rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
-    return rows[:, : like.size]
+    return rows[:, :points]
 
 
 def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
@@ -505,35 +507,32 @@ def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
     return bool(low < square[square.argmin()] and square[square.argmax()] < high)
 
 
-def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
-    """Q*/gamma^2 as a sum of squares, and the extension."""
+def _overload(m2: Array, n: Array, c: Constants, u2: Array, v: Array, s: Array) -> Array:
+    """Q*/gamma^2 as a sum of squares; the linear rod's strains over gamma in u2 and v."""
     k = c.plain
-    m2, n1, n3 = loads
-    extension = np.multiply(k.n3_extends, n3, out=s[0])
-    overload = np.square(m2, out=s[1])
-    overload *= k.bend_load
-    np.square(extension, out=s[2])
-    s[2] *= k.slack
-    overload += s[2]
-    np.square(n1, out=s[2])
-    s[2] *= k.shear_load
-    overload += s[2]
-    return extension, overload
+    x = s[:2]
+    np.multiply(k.bend_soft, m2, out=u2)
+    np.multiply(k.shear_soft, n[0], out=v[0])
+    np.multiply(k.n3_extends, n[1], out=v[1])
+    overload: Array = np.multiply(m2, u2, out=s[2])
+    np.multiply(n, v, out=x)
+    overload += x[0]
+    overload += x[1]
+    overload *= k.per_gamma
+    return overload
 
 
-def _q(strains: Rows, c: Constants, s: Rows) -> Rows:
-    """Q as a sum of squares, and the slack pull."""
+def _q(u2: Array, v: Array, c: Constants, m2: Array, n: Array, s: Array) -> Array:
+    """Q as a sum of squares; the linear rod's loads over gamma in m2 and n."""
     k = c.plain
-    u2, v1, v3 = strains
-    stretch = np.subtract(v3, 1, out=s[0])
-    slack_pull = np.multiply(k.slack, stretch, out=s[1])
-    q = np.square(u2, out=s[2])
-    q *= k.bending
-    np.square(v1, out=s[3])
-    s[3] *= k.shearing
-    q += s[3]
-    q += np.multiply(slack_pull, stretch, out=s[0])
-    return slack_pull, q
+    stretch = np.subtract(v[1], 1, out=s[0])
+    np.multiply(k.bending, u2, out=m2)
+    np.multiply(k.shearing, v[0], out=n[0])
+    np.multiply(k.slack, stretch, out=n[1])
+    q: Array = np.multiply(m2, u2, out=s[1])
+    q += np.multiply(n[0], v[0], out=s[2])
+    q += np.multiply(stretch, n[1], out=s[0])
+    return q
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
@@ -543,35 +542,31 @@ def _spread(matrix: Array, weight: Array, vector: Array) -> None:
         matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
-def _strains_plain(loads: Rows, c: Constants, u2: Array, v: Array) -> bool:
+def _strains_plain(m2: Array, n: Array, c: Constants, u2: Array, v: Array) -> bool:
     """`_strains` where nothing is extreme; else False."""
     k = c.plain
-    m2, n1, _ = loads
-    work = _scratch(3, loads[0])
-    s = [*work]
+    s = _scratch(3, m2)
     with np.errstate(over="ignore", invalid="ignore"):
-        extension, overload = _overload(loads, c, s)
+        overload = _overload(m2, n, c, u2, v, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[2])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[1])
+    root = np.log1p(excess, out=s[2])
     root *= -k.per_p
     np.exp(root, out=root)
-    bend = np.multiply(k.bend_soft, root, out=s[2])
-    np.multiply(bend, m2, out=u2)
-    shear = np.multiply(k.shear_soft, root, out=s[2])
-    np.multiply(n1, shear, out=v[0])
-    np.multiply(extension, root, out=v[1])
+    u2 *= root
+    v *= root
     v[1] += 1
     return True
 
 
-def _strains(loads: Rows, c: Constants, u2: Array, v: Array) -> None:
+def _strains(m2: Array, n: Array, c: Constants, u2: Array, v: Array) -> None:
     """(u2, v1, v3 - 1) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 (m2, n1, n3)."""
-    if _strains_plain(loads, c, u2, v):
+    if _strains_plain(m2, n, c, u2, v):
         return
+    loads = [m2, *n]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_2, nu_1, nu_3 = values
     *_, factor = _soften(y, c)
@@ -585,20 +580,18 @@ def _strains(loads: Rows, c: Constants, u2: Array, v: Array) -> None:
 def _strains_at(m2: Any, n: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
-        n3_extends, bend_load, shear_load, slack, half_p, minus_per_p, bend_soft, shear_soft, low,
-        high,
+        bend_soft, shear_soft, n3_extends, per_gamma, half_p, minus_per_p, low, high,
     ) = c.plain.of_strains
     n1, n3 = n
-    extension = n3_extends * n3
-    overload = bend_load * m2 * m2 + slack * extension * extension + shear_load * n1 * n1
+    w2, w4, extension = bend_soft * m2, shear_soft * n1, n3_extends * n3
+    overload = per_gamma * (extension * n3 + m2 * w2 + n1 * w4)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m2, n1, n3)))
     ):
         raise _Extreme
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    bend, shear = bend_soft * root, shear_soft * root
-    return bend * m2, (n1 * shear, extension * root + 1)
+    return root * w2, (root * w4, extension * root + 1)
 
 
 def strains(m2: Given | float, n: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -617,36 +610,32 @@ def strains(m2: Given | float, n: Given, constants: Constants, out: Pair | None 
     return u2, v
 
 
-def _loads_plain(strains: Rows, c: Constants, m2: Array, n: Array) -> bool:
+def _loads_plain(u2: Array, v: Array, c: Constants, m2: Array, n: Array) -> bool:
     """`_loads` where nothing is extreme; else False."""
     k = c.plain
-    u2, v1, _ = strains
-    work = _scratch(4, strains[0])
-    s = [*work]
+    s = _scratch(3, u2)
     with np.errstate(over="ignore", invalid="ignore"):
-        slack_pull, q = _q(strains, c, s)
+        q = _q(u2, v, c, m2, n, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[2])
+    growth = np.log(q, out=s[1])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[2])
+    hard = np.log1p(growth, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    bend = np.multiply(k.bending, hard, out=s[0])
-    np.multiply(bend, u2, out=m2)
-    shear = np.multiply(k.shearing, hard, out=s[0])
-    np.multiply(shear, v1, out=n[0])
-    np.multiply(hard, slack_pull, out=n[1])
+    m2 *= hard
+    n *= hard
     return True
 
 
-def _loads(strains: Rows, c: Constants, m2: Array, n: Array) -> None:
+def _loads(u2: Array, v: Array, c: Constants, m2: Array, n: Array) -> None:
     """(m2, n1, n3) = gamma (1 - Q^(p/2))^(-1/p) K (u2, v1, v3 - 1)."""
-    if _loads_plain(strains, c, m2, n):
+    if _loads_plain(u2, v, c, m2, n):
         return
+    strains = [u2, *v]
     rest = [*strains[:2], strains[2] - 1]
     values, _, unscale, q = _rescaled(_reduce_strains, rest, c)
     kappa_2, lam_1, lam_3 = values
@@ -660,18 +649,17 @@ def _loads(strains: Rows, c: Constants, m2: Array, n: Array) -> None:
 
 def _loads_at(u2: Any, v: Any, c: Constants) -> Any:
     """`loads` of floats, where nothing is extreme."""
-    slack, bending, shearing, half_p, gamma, minus_per_p, low, high = c.plain.of_loads
+    bending, shearing, slack, half_p, gamma, minus_per_p, low, high = c.plain.of_loads
     v1, v3 = v
     stretch = v3 - 1
-    slack_pull = slack * stretch
-    q = bending * u2 * u2 + shearing * v1 * v1 + slack_pull * stretch
+    r2, r4, tension = bending * u2, shearing * v1, slack * stretch
+    q = r2 * u2 + r4 * v1 + stretch * tension
     if type(q) is not float or (not low < q < 1 and (q or low > high or any((u2, v1, stretch)))):
         raise _Extreme
     q = q or NOUGHT
     left = -expm1(half_p * log(q))
     hard = gamma * left**minus_per_p
-    bend, shear = bending * hard, shearing * hard
-    return bend * u2, (shear * v1, hard * slack_pull)
+    return hard * r2, (hard * r4, hard * tension)
 
 
 def loads(u2: Given | float, v: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -691,8 +679,9 @@ def loads(u2: Given | float, v: Given, constants: Constants, out: Pair | None = 
     return m2, n
 
 
-def _stored_energy(strains: Rows, c: Constants, w: Array) -> None:
+def _stored_energy(u2: Array, v: Array, c: Constants, w: Array) -> None:
     """W = gamma/2 int_0^Q (1 - t^(p/2))^(-1/p) dt, as its share of the work."""
+    strains = [u2, *v]
     rest = [*strains[:2], strains[2] - 1]
     _, _, x, _, q = _balanced(_reduce_strains, rest, c)
     q = _within_limit(q)
@@ -736,8 +725,9 @@ def stored_energy(
     return w
 
 
-def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+def _complementary_energy(m2: Array, n: Array, c: Constants, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
+    loads = [m2, *n]
     _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
     ratio, power, factor = _soften(y, c)
     strain = factor * y
@@ -781,41 +771,39 @@ def complementary_energy(
     return w_star
 
 
-def _stiffness_plain(strains: Rows, c: Constants, stiff: Array) -> bool:
+def _stiffness_plain(u2: Array, v: Array, c: Constants, stiff: Array) -> bool:
     """`_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u2, v1, _ = strains
-    work = _scratch(7, strains[0])
-    s = [*work]
-    r = work[4:7]
+    s = _scratch(6, u2)
+    w, s = s[:3], s[3:]
     with np.errstate(over="ignore", invalid="ignore"):
-        slack_pull, q = _q(strains, c, s)
+        q = _q(u2, v, c, w[0], w[1:], s)
     if not _inside(q, k.within_q):
         return False
-    np.multiply(k.bending, u2, out=r[0])
-    np.multiply(k.shearing, v1, out=r[1])
-    r[2][...] = slack_pull
-    growth = np.log(q, out=s[1])
+    growth = np.log(q, out=s[0])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[0])
+    hard = np.log1p(growth, out=s[2])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    steep = np.multiply(growth, hard, out=s[1])
+    steep = np.multiply(growth, hard, out=s[0])
     steep /= q
-    _spread(stiff, steep, r)
-    stiff[0, 0] += np.multiply(k.bending, hard, out=s[1])
-    stiff[1, 1] += np.multiply(k.shearing, hard, out=s[1])
-    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[0])
+    _spread(stiff, steep, w)
+    bend = np.multiply(k.bending, hard, out=s[0])
+    stiff[0, 0] += bend
+    shear = np.multiply(k.shearing, hard, out=s[0])
+    stiff[1, 1] += shear
+    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[2])
     return True
 
 
-def _stiffness(strains: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness(u2: Array, v: Array, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + growth t t^T), t = K (u2, v1, v3 - 1)/x."""
-    if _stiffness_plain(strains, c, stiff):
+    if _stiffness_plain(u2, v, c, stiff):
         return
+    strains = [u2, *v]
     rest = [*strains[:2], strains[2] - 1]
     with np.errstate(over="ignore", invalid="ignore"):
         kappa_2, lam_1, lam_3, q = _reduce_strains(rest, c)
@@ -856,47 +844,44 @@ def stiffness(u2: Given | float, v: Given, constants: Constants, out: Array | No
 
 
 def _loads_and_stiffness_plain(
-    strains: Rows, c: Constants, m2: Array, n: Array, stiff: Array
+    u2: Array, v: Array, c: Constants, m2: Array, n: Array, stiff: Array
 ) -> bool:
     """`_loads_and_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    u2, v1, _ = strains
-    work = _scratch(9, strains[0])
-    s = [*work]
-    r = work[4:7]
+    s = _scratch(6, u2)
+    w, s = s[:3], s[3:]
     with np.errstate(over="ignore", invalid="ignore"):
-        slack_pull, q = _q(strains, c, s)
+        q = _q(u2, v, c, w[0], w[1:], s)
     if not _inside(q, k.within_q):
         return False
     growth = np.log(q, out=s[0])
     growth *= -0.5 * c.p
     np.expm1(growth, out=growth)
     np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[3])
+    hard = np.log1p(growth, out=s[2])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    bend = np.multiply(k.bending, hard, out=s[7])
-    np.multiply(bend, u2, out=m2)
-    shear = np.multiply(k.shearing, hard, out=s[8])
-    np.multiply(shear, v1, out=n[0])
-    r[2][...] = slack_pull
-    np.multiply(hard, r[2], out=n[1])
-    np.multiply(k.bending, u2, out=r[0])
-    np.multiply(k.shearing, v1, out=r[1])
+    np.multiply(hard, w[0], out=m2)
+    np.multiply(hard, w[1:], out=n)
     steep = np.multiply(growth, hard, out=s[0])
     steep /= q
-    _spread(stiff, steep, r)
+    _spread(stiff, steep, w)
+    bend = np.multiply(k.bending, hard, out=s[0])
     stiff[0, 0] += bend
+    shear = np.multiply(k.shearing, hard, out=s[0])
     stiff[1, 1] += shear
-    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[3])
+    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[2])
     return True
 
 
-def _loads_and_stiffness(strains: Rows, c: Constants, m2: Array, n: Array, stiff: Array) -> None:
+def _loads_and_stiffness(
+    u2: Array, v: Array, c: Constants, m2: Array, n: Array, stiff: Array
+) -> None:
     """(m2, n1, n3) = factor K (u2, v1, v3 - 1) and D^2 W = factor (K + growth t t^T), as apart."""
-    if _loads_and_stiffness_plain(strains, c, m2, n, stiff):
+    if _loads_and_stiffness_plain(u2, v, c, m2, n, stiff):
         return
+    strains = [u2, *v]
     rest = [*strains[:2], strains[2] - 1]
     values, size, _, unscale, q = _balanced(_reduce_strains, rest, c)
     kappa_2, lam_1, lam_3 = values
@@ -921,13 +906,12 @@ def _loads_and_stiffness(strains: Rows, c: Constants, m2: Array, n: Array, stiff
 def _loads_and_stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
     """`loads_and_stiffness` of floats, where nothing is extreme."""
     (
-        slack, bending, shearing, half_p, gamma, minus_per_p, stretching, low, high,
+        bending, shearing, slack, half_p, gamma, minus_per_p, stretching, low, high,
     ) = c.plain.of_loads_and_stiffness
     v1, v3 = v
     stretch = v3 - 1
-    slack_pull, r2, r4 = slack * stretch, bending * u2, shearing * v1
-    r6 = slack_pull
-    q = bending * u2 * u2 + shearing * v1 * v1 + slack_pull * stretch
+    r2, r4, tension = bending * u2, shearing * v1, slack * stretch
+    q = r2 * u2 + r4 * v1 + stretch * tension
     if type(q) is not float or (not low < q < 1 and (q or low > high or any((u2, v1, stretch)))):
         raise _Extreme
     q = q or NOUGHT
@@ -936,16 +920,16 @@ def _loads_and_stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
     hard = gamma * left**minus_per_p
     steep = growth * hard / q
     bend, shear, steep_1 = bending * hard, shearing * hard, r2 * steep
-    steep_2, steep_3 = r4 * steep, r6 * steep
-    k11, k12, k13 = bend + r2 * steep_1, r4 * steep_1, r6 * steep_1
-    k22, k23 = r4 * steep_2 + shear, r6 * steep_2
-    k33 = stretching * hard + r6 * steep_3
+    steep_2, steep_3 = r4 * steep, steep * tension
+    k11, k12, k13 = bend + r2 * steep_1, r4 * steep_1, steep_1 * tension
+    k22, k23 = r4 * steep_2 + shear, steep_2 * tension
+    k33 = stretching * hard + steep_3 * tension
     stiff = (
         (k11, k12, k13),
         (k12, k22, k23),
         (k13, k23, k33),
     )
-    return bend * u2, (shear * v1, hard * r6), stiff
+    return hard * r2, (hard * r4, hard * tension), stiff
 
 
 def loads_and_stiffness(
@@ -970,12 +954,13 @@ def loads_and_stiffness(
     return m2, n, stiff
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(m2: Array, n: Array, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 (m2, n1, n3)/y.
 
     With (a, b) the reduced load as a unit vector,
     the entries that would cancel are sums of squares.
     """
+    loads = [m2, *n]
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_2, nu_1, nu_3 = values
     _, power, factor = _soften(y, c)
@@ -1053,38 +1038,36 @@ def compliance(
 
 
 def _strains_and_gap_plain(
-    loads: Rows, c: Constants, u2: Array, v: Array, limit_gap: Array
+    m2: Array, n: Array, c: Constants, u2: Array, v: Array, limit_gap: Array
 ) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
-    m2, n1, _ = loads
-    work = _scratch(4, loads[0])
-    s = [*work]
+    s = _scratch(3, m2)
     with np.errstate(over="ignore", invalid="ignore"):
-        extension, overload = _overload(loads, c, s)
+        overload = _overload(m2, n, c, u2, v, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[2])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[2])
+    root = np.log1p(excess, out=s[0])
     root *= -k.per_p
     np.exp(root, out=root)
-    bend = np.multiply(k.bend_soft, root, out=s[3])
-    np.multiply(bend, m2, out=u2)
-    shear = np.multiply(k.shear_soft, root, out=s[3])
-    np.multiply(n1, shear, out=v[0])
-    np.multiply(extension, root, out=v[1])
+    u2 *= root
+    v *= root
     v[1] += 1
     np.add(excess, 1, out=limit_gap)
     np.divide(1, limit_gap, out=limit_gap)
     return True
 
 
-def _strains_and_gap(loads: Rows, c: Constants, u2: Array, v: Array, limit_gap: Array) -> None:
+def _strains_and_gap(
+    m2: Array, n: Array, c: Constants, u2: Array, v: Array, limit_gap: Array
+) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    if _strains_and_gap_plain(loads, c, u2, v, limit_gap):
+    if _strains_and_gap_plain(m2, n, c, u2, v, limit_gap):
         return
+    loads = [m2, *n]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     mu_2, nu_1, nu_3 = values
     _, power, factor = _soften(y, c)
@@ -1100,20 +1083,18 @@ def _strains_and_gap(loads: Rows, c: Constants, u2: Array, v: Array, limit_gap: 
 def _strains_and_gap_at(m2: Any, n: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
     (
-        n3_extends, bend_load, shear_load, slack, half_p, minus_per_p, bend_soft, shear_soft, low,
-        high,
+        bend_soft, shear_soft, n3_extends, per_gamma, half_p, minus_per_p, low, high,
     ) = c.plain.of_strains_and_gap
     n1, n3 = n
-    extension = n3_extends * n3
-    overload = bend_load * m2 * m2 + slack * extension * extension + shear_load * n1 * n1
+    w2, w4, extension = bend_soft * m2, shear_soft * n1, n3_extends * n3
+    overload = per_gamma * (extension * n3 + m2 * w2 + n1 * w4)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m2, n1, n3)))
     ):
         raise _Extreme
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    bend, shear = bend_soft * root, shear_soft * root
-    return bend * m2, (n1 * shear, extension * root + 1), 1 / (excess + 1)
+    return root * w2, (root * w4, extension * root + 1), 1 / (excess + 1)
 
 
 def strains_and_gap(
@@ -1137,40 +1118,41 @@ def strains_and_gap(
     return u2, v, limit_gap
 
 
-def _stiffness_at_loads_plain(loads: Rows, c: Constants, stiff: Array) -> bool:
+def _stiffness_at_loads_plain(m2: Array, n: Array, c: Constants, stiff: Array) -> bool:
     """`_stiffness_at_loads` where nothing is extreme; else False."""
     k = c.plain
-    m2, n1, n3 = loads
-    work = _scratch(6, loads[0])
-    s = [*work]
-    h = work[3:6]
+    s = _scratch(9, m2)
+    w, s = s[:3], s[3:]
+    h = s[3:6]
     with np.errstate(over="ignore", invalid="ignore"):
-        *_, overload = _overload(loads, c, s)
+        overload = _overload(m2, n, c, w[0], w[1:], s)
     if not _inside(overload, k.within_overload):
         return False
     excess = np.log(overload, out=s[0])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    hard = np.log1p(excess, out=s[2])
+    hard = np.log1p(excess, out=s[1])
     hard *= k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     lift = np.multiply(excess, hard, out=s[0])
     lift /= overload
     np.multiply(k.per_gamma, m2, out=h[0])
-    np.multiply(k.per_gamma, n1, out=h[1])
-    np.multiply(k.per_gamma, n3, out=h[2])
+    np.multiply(k.per_gamma, n, out=h[1:])
     _spread(stiff, lift, h)
-    stiff[0, 0] += np.multiply(k.bending, hard, out=s[0])
-    stiff[1, 1] += np.multiply(k.shearing, hard, out=s[0])
-    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[2])
+    bend = np.multiply(k.bending, hard, out=s[0])
+    stiff[0, 0] += bend
+    shear = np.multiply(k.shearing, hard, out=s[0])
+    stiff[1, 1] += shear
+    stiff[2, 2] += np.multiply(k.stretching, hard, out=s[1])
     return True
 
 
-def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
+def _stiffness_at_loads(m2: Array, n: Array, c: Constants, stiff: Array) -> None:
     """D^2 W = factor (K + h h^T), h = (y/gamma)^(p/2) (m2, n1, n3)/y, y^2 = Q*."""
-    if _stiffness_at_loads_plain(loads, c, stiff):
+    if _stiffness_at_loads_plain(m2, n, c, stiff):
         return
+    loads = [m2, *n]
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     mu_2, nu_1, nu_3 = values
     rise, factor = _harden(y, c)
@@ -1189,12 +1171,12 @@ def _stiffness_at_loads(loads: Rows, c: Constants, stiff: Array) -> None:
 def _stiffness_at_loads_at(m2: Any, n: Any, c: Constants) -> Any:
     """`stiffness_at_loads` of floats, where nothing is extreme."""
     (
-        n3_extends, bend_load, shear_load, slack, half_p, gamma, per_p, per_gamma, bending,
-        shearing, stretching, low, high,
+        bend_soft, shear_soft, n3_extends, per_gamma, half_p, gamma, per_p, bending, shearing,
+        stretching, low, high,
     ) = c.plain.of_stiffness_at_loads
     n1, n3 = n
-    extension = n3_extends * n3
-    overload = bend_load * m2 * m2 + slack * extension * extension + shear_load * n1 * n1
+    w2, w4, extension = bend_soft * m2, shear_soft * n1, n3_extends * n3
+    overload = per_gamma * (extension * n3 + m2 * w2 + n1 * w4)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((m2, n1, n3)))
     ):
@@ -1204,9 +1186,10 @@ def _stiffness_at_loads_at(m2: Any, n: Any, c: Constants) -> Any:
     hard = gamma * (excess + 1)**per_p
     lift = excess * hard / overload
     h2, h4, h6 = per_gamma * m2, per_gamma * n1, per_gamma * n3
-    lift_1, lift_2, lift_3 = h2 * lift, h4 * lift, h6 * lift
-    k11, k12, k13 = bending * hard + h2 * lift_1, h4 * lift_1, h6 * lift_1
-    k22, k23 = h4 * lift_2 + shearing * hard, h6 * lift_2
+    bend, shear, lift_1 = bending * hard, shearing * hard, h2 * lift
+    lift_2, lift_3 = h4 * lift, h6 * lift
+    k11, k12, k13 = bend + h2 * lift_1, h4 * lift_1, h6 * lift_1
+    k22, k23 = h4 * lift_2 + shear, h6 * lift_2
     k33 = h6 * lift_3 + stretching * hard
     return (
         (k11, k12, k13),

@@ -16,10 +16,10 @@ in plain Python, where nothing is extreme. They agree with the arrays' answers w
 the largest component, or as far as the inputs determine what grows near the limit.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
-    strains                20    4    0    5
+    strains                20    4    0    7
     complementary_energy   29    6    1   10
     compliance             67    4    0   23
-    strains_and_gap        22    4    0    5
+    strains_and_gap        22    4    0    7
 """
 
 from __future__ import annotations
@@ -155,11 +155,10 @@ class Plain:
         beta, gamma, zeta, eta, iota, p = (
             Fraction(v) for v in (c.beta, c.gamma, c.zeta, c.eta, c.iota, c.p)
         )
-        self.shear_load = _rounded(1 / gamma**2 / zeta**2)
-        self.slack = _rounded((beta**2 * eta**2 - iota**2) / beta**2)
-        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
         self.shear_soft = _rounded(1 / gamma / zeta**2)
+        self.n3_extends = _rounded(beta**2 / gamma / (beta**2 * eta**2 - iota**2))
         self.untwist = _rounded(iota / beta**2)
+        self.per_gamma = _rounded(1 / gamma)
         self.per_p = _rounded(1 / p)
         used = [v for v in vars(self).values() if v]
         self.within_overload: dict[Any, tuple[float, float]] = {}
@@ -171,8 +170,8 @@ class Plain:
             overload = (1 / span, math.exp(min(2 * math.log(span) / c.p, math.log(1024))))
             self.within_overload[kind] = overload if even else (1.0, 0.0)
         self.of_strains = (
-            self.n3_extends, self.shear_load, self.slack, 0.5 * c.p, -self.per_p, self.shear_soft,
-            -self.untwist, *self.room[DOUBLE],
+            self.shear_soft, self.n3_extends, self.per_gamma, -self.untwist, 0.5 * c.p, -self.per_p,
+            *self.room[DOUBLE],
         )
         self.of_strains_and_gap = self.of_strains
 
@@ -362,21 +361,21 @@ def _apply(
     arrays, shape = _arguments(inputs)
     results = _results(names, shape, arrays[0].dtype, out)
     points = math.prod(shape)
-    given = [array.reshape(-1, max(points, 1)) for array in arrays]
     direct = out is None or all(
         r.flags.c_contiguous and not any(np.may_share_memory(r, a) for a in arrays) for r in results
     )
-    flat = [
-        (r if direct else _fresh(r.shape, r.dtype)).reshape(*HEADS[name], points)
-        for name, r in zip(names, results, strict=True)
-    ]
+    given = arrays
+    flat = results if direct else [_fresh(r.shape, r.dtype) for r in results]
+    if len(shape) != 1:
+        given = [a.reshape(*HEADS[name], points) for name, a in zip(inputs, given, strict=True)]
+        flat = [r.reshape(*HEADS[name], points) for name, r in zip(names, flat, strict=True)]
     blocks = max(1, -(-points // BLOCK))
     size = max(1, -(-points // blocks // LINE)) * LINE  # blocks of one length, whole cache lines
     with np.errstate(under="ignore"):
         for start in range(0, points, size):
             part = slice(start, min(start + size, points))
-            rows = [row for a in given for row in a[:, part]]
-            body(rows, c, *(array[..., part] for array in flat))
+            block = [a[..., part] for a in given]
+            body(*block, c, *(array[..., part] for array in flat))
     if not direct:
         for result, values in zip(results, flat, strict=True):
             result[...] = values.reshape(result.shape)
@@ -414,14 +413,18 @@ def _numbers(array: Array) -> Any:
 
 
 def _scratch(count: int, like: Array) -> Array:
-    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it."""
-    length = (like.size // LINE + 1) * LINE
+    """Rows of scratch, kept by each thread: fresh memory costs more than the work on it.
+
+    Short ones follow each other, to be worked on as one; of long ones NumPy would make copies.
+    """
+    points = like.shape[-1]
+    length = points if points < 512 else (points // LINE + 1) * LINE
     needed = count * length * like.itemsize
     memory = getattr(KEPT, "memory", None)
     if memory is None or len(memory) < needed:
         memory = KEPT.memory = _fresh((needed,), np.uint8)
     rows: Array = memory[:needed].view(like.dtype).reshape(count, length)
-    return rows[:, : like.size]
+    return rows[:, :points]
 
 
 def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
@@ -430,18 +433,18 @@ def _inside(square: Array, within: dict[Any, tuple[float, float]]) -> bool:
     return bool(low < square[square.argmin()] and square[square.argmax()] < high)
 
 
-def _overload(loads: Rows, c: Constants, s: Rows) -> Rows:
-    """Q*/gamma^2 as a sum of squares, and the extension."""
+def _overload(n: Array, c: Constants, u3: Array, v: Array, s: Array) -> Array:
+    """Q*/gamma^2 as a sum of squares; the linear rod's strains over gamma in u3 and v."""
     k = c.plain
-    n1, n2, n3 = loads
-    extension = np.multiply(k.n3_extends, n3, out=s[0])
-    overload = np.square(extension, out=s[1])
-    overload *= k.slack
-    np.square(n1, out=s[2])
-    s[2] += np.square(n2, out=s[3])
-    s[2] *= k.shear_load
-    overload += s[2]
-    return extension, overload
+    x = s[:3]
+    np.multiply(k.shear_soft, n[:2], out=v[:2])
+    np.multiply(k.n3_extends, n[2], out=v[2])
+    np.multiply(n, v, out=x)
+    overload: Array = np.add(x[0], x[1], out=s[3])
+    overload += x[2]
+    overload *= k.per_gamma
+    np.multiply(-k.untwist, v[2], out=u3)
+    return overload
 
 
 def _spread(matrix: Array, weight: Array, vector: Array) -> None:
@@ -451,36 +454,31 @@ def _spread(matrix: Array, weight: Array, vector: Array) -> None:
         matrix[i + 1 :, i] = matrix[i, i + 1 :]
 
 
-def _strains_plain(loads: Rows, c: Constants, u3: Array, v: Array) -> bool:
+def _strains_plain(n: Array, c: Constants, u3: Array, v: Array) -> bool:
     """`_strains` where nothing is extreme; else False."""
     k = c.plain
-    n1, n2, _ = loads
-    work = _scratch(4, loads[0])
-    s = [*work]
+    s = _scratch(4, n)
     with np.errstate(over="ignore", invalid="ignore"):
-        extension, overload = _overload(loads, c, s)
+        overload = _overload(n, c, u3, v, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[3])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[1])
+    root = np.log1p(excess, out=s[3])
     root *= -k.per_p
     np.exp(root, out=root)
-    np.multiply(-k.untwist, extension, out=u3)
     u3 *= root
-    shear = np.multiply(k.shear_soft, root, out=s[2])
-    np.multiply(n1, shear, out=v[0])
-    np.multiply(n2, shear, out=v[1])
-    np.multiply(extension, root, out=v[2])
+    v *= root
     v[2] += 1
     return True
 
 
-def _strains(loads: Rows, c: Constants, u3: Array, v: Array) -> None:
+def _strains(n: Array, c: Constants, u3: Array, v: Array) -> None:
     """(u3, v - e3) = (gamma^p + Q*^(p/2))^(-1/p) K^-1 n."""
-    if _strains_plain(loads, c, u3, v):
+    if _strains_plain(n, c, u3, v):
         return
+    loads = [*n]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     nu_1, nu_2, dilatation, twist = values
     *_, factor = _soften(y, c)
@@ -494,19 +492,19 @@ def _strains(loads: Rows, c: Constants, u3: Array, v: Array) -> None:
 def _strains_at(n: Any, c: Constants) -> Any:
     """`strains` of floats, where nothing is extreme."""
     (
-        n3_extends, shear_load, slack, half_p, minus_per_p, shear_soft, minus_untwist, low, high,
+        shear_soft, n3_extends, per_gamma, minus_untwist, half_p, minus_per_p, low, high,
     ) = c.plain.of_strains
     n1, n2, n3 = n
-    extension = n3_extends * n3
-    overload = slack * extension * extension + shear_load * (n1 * n1 + n2 * n2)
+    w4, w5, extension = shear_soft * n1, shear_soft * n2, n3_extends * n3
+    overload = per_gamma * (extension * n3 + n1 * w4 + n2 * w5)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((n1, n2, n3)))
     ):
         raise _Extreme
+    twist = minus_untwist * extension
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    shear = shear_soft * root
-    return minus_untwist * extension * root, (n1 * shear, n2 * shear, extension * root + 1)
+    return root * twist, (root * w4, root * w5, extension * root + 1)
 
 
 def strains(n: Given, constants: Constants, out: Pair | None = None) -> Pair:
@@ -525,8 +523,9 @@ def strains(n: Given, constants: Constants, out: Pair | None = None) -> Pair:
     return u3, v
 
 
-def _complementary_energy(loads: Rows, c: Constants, w_star: Array) -> None:
+def _complementary_energy(n: Array, c: Constants, w_star: Array) -> None:
     """W* = 1/2 int_0^Q* (gamma^p + t^(p/2))^(-1/p) dt, as its share of the work."""
+    loads = [*n]
     _, _, y, _, _ = _balanced(_reduce_loads, loads, c)
     ratio, power, factor = _soften(y, c)
     strain = factor * y
@@ -568,12 +567,13 @@ def complementary_energy(n: Given, constants: Constants, out: Array | None = Non
     return w_star
 
 
-def _compliance(loads: Rows, c: Constants, soft: Array) -> None:
+def _compliance(n: Array, c: Constants, soft: Array) -> None:
     """D^2 W* = factor (K^-1 - share d d^T), d = K^-1 n/y.
 
     With (a, b) the reduced load as a unit vector and (c3, c6) the linear rod's reduced strains,
     the entries that would cancel are sums of squares.
     """
+    loads = [*n]
     values, size, y, _, _ = _balanced(_reduce_loads, loads, c)
     nu_1, nu_2, dilatation, _ = values
     _, power, factor = _soften(y, c)
@@ -649,40 +649,33 @@ def compliance(n: Given, constants: Constants, out: Array | None = None) -> Arra
     return soft
 
 
-def _strains_and_gap_plain(
-    loads: Rows, c: Constants, u3: Array, v: Array, limit_gap: Array
-) -> bool:
+def _strains_and_gap_plain(n: Array, c: Constants, u3: Array, v: Array, limit_gap: Array) -> bool:
     """`_strains_and_gap` where nothing is extreme; else False."""
     k = c.plain
-    n1, n2, _ = loads
-    work = _scratch(4, loads[0])
-    s = [*work]
+    s = _scratch(4, n)
     with np.errstate(over="ignore", invalid="ignore"):
-        extension, overload = _overload(loads, c, s)
+        overload = _overload(n, c, u3, v, s)
     if not _inside(overload, k.within_overload):
         return False
-    excess = np.log(overload, out=s[1])
+    excess = np.log(overload, out=s[3])
     excess *= 0.5 * c.p
     np.exp(excess, out=excess)
-    root = np.log1p(excess, out=s[2])
+    root = np.log1p(excess, out=s[0])
     root *= -k.per_p
     np.exp(root, out=root)
-    np.multiply(-k.untwist, extension, out=u3)
     u3 *= root
-    shear = np.multiply(k.shear_soft, root, out=s[3])
-    np.multiply(n1, shear, out=v[0])
-    np.multiply(n2, shear, out=v[1])
-    np.multiply(extension, root, out=v[2])
+    v *= root
     v[2] += 1
     np.add(excess, 1, out=limit_gap)
     np.divide(1, limit_gap, out=limit_gap)
     return True
 
 
-def _strains_and_gap(loads: Rows, c: Constants, u3: Array, v: Array, limit_gap: Array) -> None:
+def _strains_and_gap(n: Array, c: Constants, u3: Array, v: Array, limit_gap: Array) -> None:
     """The strains, and 1 - Q^(p/2) = gamma^p/(gamma^p + Q*^(p/2))."""
-    if _strains_and_gap_plain(loads, c, u3, v, limit_gap):
+    if _strains_and_gap_plain(n, c, u3, v, limit_gap):
         return
+    loads = [*n]
     values, _, y, unscale, _ = _balanced(_reduce_loads, loads, c)
     nu_1, nu_2, dilatation, twist = values
     _, power, factor = _soften(y, c)
@@ -698,23 +691,19 @@ def _strains_and_gap(loads: Rows, c: Constants, u3: Array, v: Array, limit_gap: 
 def _strains_and_gap_at(n: Any, c: Constants) -> Any:
     """`strains_and_gap` of floats, where nothing is extreme."""
     (
-        n3_extends, shear_load, slack, half_p, minus_per_p, shear_soft, minus_untwist, low, high,
+        shear_soft, n3_extends, per_gamma, minus_untwist, half_p, minus_per_p, low, high,
     ) = c.plain.of_strains_and_gap
     n1, n2, n3 = n
-    extension = n3_extends * n3
-    overload = slack * extension * extension + shear_load * (n1 * n1 + n2 * n2)
+    w4, w5, extension = shear_soft * n1, shear_soft * n2, n3_extends * n3
+    overload = per_gamma * (extension * n3 + n1 * w4 + n2 * w5)
     if type(overload) is not float or (
         not low < overload < high and (overload or low > high or any((n1, n2, n3)))
     ):
         raise _Extreme
+    twist = minus_untwist * extension
     excess = overload**half_p
     root = (excess + 1)**minus_per_p
-    shear = shear_soft * root
-    return (
-        minus_untwist * extension * root,
-        (n1 * shear, n2 * shear, extension * root + 1),
-        1 / (excess + 1),
-    )
+    return root * twist, (root * w4, root * w5, extension * root + 1), 1 / (excess + 1)
 
 
 def strains_and_gap(n: Given, constants: Constants, out: Triple | None = None) -> Triple:

@@ -99,9 +99,9 @@ def test_constrained_scene_is_the_derived_limit(own: str) -> None:
 SHEAR = {"zeta", "per_zeta", "n1", "n2", "v1", "v2", "nu_1", "nu_2", "lam_1", "lam_2", "shear"}
 SHEAR |= {"b1", "b2", "bb1", "bb2", "d4", "d5", "t4", "t5"}
 STRETCH = {"eta", "per_eta", "n3", "v3", "nu_3", "lam_3", "extend", "dilatation", "stretch"}
-CHIRAL = {"iota", "chirality", "gap", "per_gap", "n3_dilates", "m3_contracts", "tension"}
-CHIRAL |= {"untwist", "m3_extends"}
-CHIRAL |= {"twist", "dilatation", "c3", "c6", "cc6", "tau"}
+CHIRAL = {"iota", "chirality", "gap", "per_gap", "n3_dilates", "m3_contracts"}
+CHIRAL |= {"untwist", "m3_extends", "slack_load", "pull"}
+CHIRAL |= {"dilatation", "c3", "c6", "cc6", "tau"}
 POWERS = {
     "exp",
     "log",
