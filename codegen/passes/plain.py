@@ -34,7 +34,7 @@ from rodproof.derivations.theory import constitutive as theory
 m1, m2, m3, n1, n2, n3 = LOADS
 u1, u2, u3, v1, v2, _ = STRAINS
 overload, excess, root, q = map(symbol, ("overload", "excess", "root", "q"))
-growth, hard = symbol("growth"), symbol("hard")
+left, hard = symbol("left"), symbol("hard")
 #: The linear rod's strains over gamma at the loads, and its loads over gamma at the strains.
 w = tuple(map(symbol, ("w1", "w2", "twist", "w4", "w5", "extension")))
 r = tuple(map(symbol, ("r1", "r2", "torque", "r4", "r5", "tension")))
@@ -151,11 +151,12 @@ FORM = (
 SQUARES = u1 * r1 + u2 * r2 + symbol("per_turning") * torque**2 + v1 * r4 + v2 * r5 + stretch * pull
 STRAIN_FORM = Form(q.name, tuple(a.name for a in r))
 
-GROWTH = (
-    Assignment("growth", 1 / expm1(-p / 2 * sp.log(q))),
-    Assignment("hard", gamma * sp.exp(log1p(growth) / p)),
+#: What is left of the way to the limit, 1 - Q^(p/2). Its logarithm counts by its size alone.
+LEFT = (
+    Assignment(left.name, -expm1(p / 2 * sp.log(q))),
+    Assignment(hard.name, gamma * sp.exp(-sp.log(left) / p)),
 )
-LEFT = (Assignment("left", 1 - q), Assignment("hard", gamma / sp.sqrt(symbol("left"))))
+LEFT_SQUARE = (Assignment(left.name, 1 - q), Assignment(hard.name, gamma / sp.sqrt(left)))
 
 #: The power stays above 1/span; what is near the limit is for the other kernel.
 NEAR = 1 - sp.Rational(1, 2**10)
@@ -169,15 +170,15 @@ def _squares() -> Pair:
 
 def _loads(square: bool) -> Plain:
     pairs = tuple((factor * row, hard * new) for row, new in zip(s, r, strict=True))
-    radial = LEFT if square else GROWTH
+    radial = LEFT_SQUARE if square else LEFT
     rule = Rule("loads", (_squares(), *pairs), (*FORM, *radial), WHY, STRAIN_CONSTANTS)
     return Plain(rule, ABOVE_SQUARES if square else ABOVE_POWERS, STRAIN_FORM)
 
 
 def _stiffness(square: bool) -> Plain:
-    """factor (K + growth K eps (K eps)^T/Q)."""
-    weight = hard / symbol("left") if square else growth / q * hard
-    definitions = (*FORM, *(LEFT if square else GROWTH), Assignment("steep", weight))
+    """factor (K + Q^(p/2)/left K eps (K eps)^T/Q)."""
+    weight = hard / left if square else (1 - left) * hard / left / q
+    definitions = (*FORM, *(LEFT_SQUARE if square else LEFT), Assignment("steep", weight))
     dyad = Dyad("stiff", "steep", STRAIN_FORM.vector)
     rule = _rank_one("stiffness", dyad, definitions, STRAIN_CONSTANTS)
     rule = replace(rule, pairs=(_squares(), *rule.pairs))

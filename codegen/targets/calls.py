@@ -125,7 +125,9 @@ class _Tape:
 
     def scale(self, to: str, scalar: sp.Expr, factor: sp.Expr) -> None:
         """Times a scalar."""
-        if self.plain(factor):
+        if scalar == -1:
+            self.call(to, "np.negative", factor)
+        elif self.plain(factor):
             self.call(to, "np.multiply", scalar, factor)
         else:
             self.call(to, "np.multiply", factor, scalar)

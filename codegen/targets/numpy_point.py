@@ -9,7 +9,7 @@ from functools import cache
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
-from rodproof.codegen.kernel import Assignment, Kernel, symbol
+from rodproof.codegen.kernel import Kernel, symbol
 from rodproof.codegen.passes.specialise import drop_dead
 from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.scene import CONSTANT_NAMES, Scene
@@ -120,27 +120,17 @@ def constants_taken(kernel: Kernel) -> tuple[str, ...]:
 def _hoisted(kernel: Kernel) -> Kernel:
     """The kernel that is printed, with its products of constants: the plain one, if there is one.
 
-    It holds further than on arrays, for any large load and small strain: a power of Python does not
-    multiply the rounding of a logarithm, and 1 - x^p takes the place of the growth.
+    It holds further than on arrays, for any large load: a power of Python does not multiply the
+    rounding of a logarithm.
     """
     if kernel.plain is None:
         return scalar.hoisted(kernel)
-    body: list[Assignment] = []
     changed: dict[sp.Expr, sp.Expr] = {}
-    left = symbol("left")
-    for a in kernel.plain.body:
-        for node in a.expr.atoms(sp.exp):
-            rate, log = node.args[0].as_independent(log1p)
-            if isinstance(log, log1p):
-                known = log.args[0] == symbol("growth")
-                changed[node] = left ** (-rate) if known else (1 + log.args[0]) ** rate
-        if a.expr.func == sp.Pow and isinstance(a.expr.base, expm1):  # the growth x^p/(1 - x^p)
-            body += [Assignment("left", -expm1(-a.expr.base.args[0]))]
-            body += [replace(a, expr=1 / left - 1)]
-        else:
-            body.append(replace(a, expr=a.expr.xreplace(changed)))
-    outputs = tuple(replace(o, expr=o.expr.xreplace(changed)) for o in kernel.plain.outputs)
-    plain = replace(kernel.plain, body=tuple(body), outputs=outputs, form=None)
+    for node in (node for e in kernel.plain.expressions() for node in e.atoms(sp.exp)):
+        rate, log = node.args[0].as_independent(log1p)
+        if isinstance(log, log1p):
+            changed[node] = (1 + log.args[0]) ** rate
+    plain = replace(kernel.plain.rewrite(changed), form=None)
     return scalar.hoisted(drop_dead(plain))
 
 

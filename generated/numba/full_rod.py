@@ -15,11 +15,11 @@ Domain: loads with finite Q*^(1/2); strains with Q < 1, else an error.
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                36    4    0   10
-    loads                  34    4    0   11
+    loads                  35    4    0   11
     stored_energy          32    4    1   13
     complementary_energy   41    6    1   13
-    stiffness              85    4    0   14
-    loads_and_stiffness    91    4    0   14
+    stiffness              90    4    0   14
+    loads_and_stiffness    96    4    0   14
     compliance            160    4    0   39
     strains_and_gap        38    4    0   10
     stiffness_at_loads     92    4    0   19
@@ -619,8 +619,8 @@ def _loads_plain(
     pull = k.slack * stretch
     tension = pull + k.untwist * torque
     q = k.per_turning * torque * torque + pull * stretch + r1 * u1 + r2 * u2 + r4 * v1 + r5 * v2
-    growth = 1 / _expm1(-0.5 * c.p * _log(q))
-    hard = c.gamma * _exp(k.per_p * _log1p(growth))
+    left = -_expm1(0.5 * c.p * _log(q))
+    hard = c.gamma * _exp(-k.per_p * _log(left))
     return (hard * r1, hard * r2, hard * torque, hard * r4, hard * r5, hard * tension), q
 
 
@@ -891,9 +891,9 @@ def _stiffness_plain(
     pull = k.slack * stretch
     tension = pull + k.untwist * torque
     q = k.per_turning * torque * torque + pull * stretch + r1 * u1 + r2 * u2 + r4 * v1 + r5 * v2
-    growth = 1 / _expm1(-0.5 * c.p * _log(q))
-    hard = c.gamma * _exp(k.per_p * _log1p(growth))
-    steep = growth * hard / q
+    left = -_expm1(0.5 * c.p * _log(q))
+    hard = c.gamma * _exp(-k.per_p * _log(left))
+    steep = hard * (1 - left) / left / q
     bend, shear, steep_1, steep_2 = k.bending * hard, k.shearing * hard, r1 * steep, r2 * steep
     steep_3, steep_4, steep_5, steep_6 = steep * torque, r4 * steep, r5 * steep, steep * tension
     k11, k12, k13, k14 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque, r4 * steep_1
@@ -1030,9 +1030,9 @@ def _loads_and_stiffness_plain(
     pull = k.slack * stretch
     tension = pull + k.untwist * torque
     q = k.per_turning * torque * torque + pull * stretch + r1 * u1 + r2 * u2 + r4 * v1 + r5 * v2
-    growth = 1 / _expm1(-0.5 * c.p * _log(q))
-    hard = c.gamma * _exp(k.per_p * _log1p(growth))
-    steep = growth * hard / q
+    left = -_expm1(0.5 * c.p * _log(q))
+    hard = c.gamma * _exp(-k.per_p * _log(left))
+    steep = hard * (1 - left) / left / q
     bend, shear, steep_1, steep_2 = k.bending * hard, k.shearing * hard, r1 * steep, r2 * steep
     steep_3, steep_4, steep_5, steep_6 = steep * torque, r4 * steep, r5 * steep, steep * tension
     k11, k12, k13, k14 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque, r4 * steep_1

@@ -21,11 +21,11 @@ the largest component, or as far as the inputs determine what grows near the lim
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                29    4    0    9
-    loads                  29    4    0   10
+    loads                  30    4    0   10
     stored_energy          29    4    1   12
     complementary_energy   37    6    1   13
-    stiffness              78    4    0   13
-    loads_and_stiffness    84    4    0   13
+    stiffness              83    4    0   13
+    loads_and_stiffness    89    4    0   13
     compliance            136    4    0   35
     strains_and_gap        31    4    0    9
     stiffness_at_loads     83    4    0   18
@@ -649,12 +649,12 @@ def _loads_plain(u: Array, v: Array, c: Constants, m: Array, n: Array) -> bool:
         q = _q(u, v, c, m, n, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[4])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[4])
-    hard *= k.per_p
+    left = np.log(q, out=s[4])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[4])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     m *= hard
@@ -821,22 +821,24 @@ def _stiffness_plain(u: Array, v: Array, c: Constants, stiff: Array) -> bool:
         q = _q(u, v, c, w[:3], w[3:], s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[0])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[1])
-    hard *= k.per_p
+    left = np.log(q, out=s[0])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[1])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    steep = np.multiply(growth, hard, out=s[0])
+    steep = np.subtract(1, left, out=s[2])
+    steep *= hard
+    steep /= left
     steep /= q
     _spread(stiff, steep, w)
-    bend = np.multiply(k.bending, hard, out=s[0])
+    bend = np.multiply(k.bending, hard, out=s[2])
     stiff[0, 0] += bend
     stiff[1, 1] += bend
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
-    shear = np.multiply(k.shearing, hard, out=s[0])
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[2])
+    shear = np.multiply(k.shearing, hard, out=s[2])
     stiff[3, 3] += shear
     stiff[4, 4] += shear
     stiff[5, 5] += np.multiply(k.stretching, hard, out=s[1])
@@ -905,24 +907,26 @@ def _loads_and_stiffness_plain(
         q = _q(u, v, c, w[:3], w[3:], s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[0])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[1])
-    hard *= k.per_p
+    left = np.log(q, out=s[0])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[1])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     np.multiply(hard, w[:3], out=m)
     np.multiply(hard, w[3:], out=n)
-    steep = np.multiply(growth, hard, out=s[0])
+    steep = np.subtract(1, left, out=s[2])
+    steep *= hard
+    steep /= left
     steep /= q
     _spread(stiff, steep, w)
-    bend = np.multiply(k.bending, hard, out=s[0])
+    bend = np.multiply(k.bending, hard, out=s[2])
     stiff[0, 0] += bend
     stiff[1, 1] += bend
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
-    shear = np.multiply(k.shearing, hard, out=s[0])
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[2])
+    shear = np.multiply(k.shearing, hard, out=s[2])
     stiff[3, 3] += shear
     stiff[4, 4] += shear
     stiff[5, 5] += np.multiply(k.stretching, hard, out=s[1])
@@ -980,9 +984,8 @@ def _loads_and_stiffness_at(u: Any, v: Any, c: Constants) -> Any:
         raise _Extreme
     q = q or NOUGHT
     left = -expm1(half_p * log(q))
-    growth = 1 / left - 1
     hard = gamma * left**minus_per_p
-    steep = growth * hard / q
+    steep = hard * (1 - left) / left / q
     bend, shear, steep_1 = bending * hard, shearing * hard, r1 * steep
     steep_2, steep_3, steep_4 = r2 * steep, steep * torque, r4 * steep
     steep_5, steep_6 = r5 * steep, steep * tension

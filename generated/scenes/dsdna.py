@@ -19,11 +19,11 @@ the largest component, or as far as the inputs determine what grows near the lim
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                28    4    0    8
-    loads                  26    4    0    9
+    loads                  27    4    0    9
     stored_energy          26    4    1   11
     complementary_energy   35    6    1   11
-    stiffness              54    4    0   11
-    loads_and_stiffness    58    4    0   11
+    stiffness              59    4    0   11
+    loads_and_stiffness    63    4    0   11
     compliance            108    4    0   31
     strains_and_gap        30    4    0    8
     stiffness_at_loads     59    4    0   14
@@ -697,12 +697,12 @@ def _loads_plain(u: Array, v3: Array, c: Constants, m: Array, n3: Array) -> bool
         q = _q(u, v3, c, m, n3, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[4])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[4])
-    hard *= k.per_p
+    left = np.log(q, out=s[4])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[4])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     m *= hard
@@ -870,22 +870,24 @@ def _stiffness_plain(u: Array, v3: Array, c: Constants, stiff: Array) -> bool:
         q = _q(u, v3, c, w[:3], w[3], s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[0])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[1])
-    hard *= k.per_p
+    left = np.log(q, out=s[0])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[1])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    steep = np.multiply(growth, hard, out=s[0])
+    steep = np.subtract(1, left, out=s[2])
+    steep *= hard
+    steep /= left
     steep /= q
     _spread(stiff, steep, w)
-    bend = np.multiply(k.bending, hard, out=s[0])
+    bend = np.multiply(k.bending, hard, out=s[2])
     stiff[0, 0] += bend
     stiff[1, 1] += bend
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
-    stiff[2, 3] += np.multiply(c.iota, hard, out=s[0])
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[2])
+    stiff[2, 3] += np.multiply(c.iota, hard, out=s[2])
     stiff[3, 3] += np.multiply(k.stretching, hard, out=s[1])
     stiff[3, 2] = stiff[2, 3]
     return True
@@ -951,24 +953,26 @@ def _loads_and_stiffness_plain(
         q = _q(u, v3, c, w[:3], w[3], s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[0])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[1])
-    hard *= k.per_p
+    left = np.log(q, out=s[0])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[1])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     np.multiply(hard, w[:3], out=m)
     np.multiply(hard, w[3], out=n3)
-    steep = np.multiply(growth, hard, out=s[0])
+    steep = np.subtract(1, left, out=s[2])
+    steep *= hard
+    steep /= left
     steep /= q
     _spread(stiff, steep, w)
-    bend = np.multiply(k.bending, hard, out=s[0])
+    bend = np.multiply(k.bending, hard, out=s[2])
     stiff[0, 0] += bend
     stiff[1, 1] += bend
-    stiff[2, 2] += np.multiply(k.turning, hard, out=s[0])
-    stiff[2, 3] += np.multiply(c.iota, hard, out=s[0])
+    stiff[2, 2] += np.multiply(k.turning, hard, out=s[2])
+    stiff[2, 3] += np.multiply(c.iota, hard, out=s[2])
     stiff[3, 3] += np.multiply(k.stretching, hard, out=s[1])
     stiff[3, 2] = stiff[2, 3]
     return True
@@ -1025,9 +1029,8 @@ def _loads_and_stiffness_at(u: Any, v3: Any, c: Constants) -> Any:
         raise _Extreme
     q = q or NOUGHT
     left = -expm1(half_p * log(q))
-    growth = 1 / left - 1
     hard = gamma * left**minus_per_p
-    steep = growth * hard / q
+    steep = hard * (1 - left) / left / q
     bend, steep_1, steep_2 = bending * hard, r1 * steep, r2 * steep
     steep_3, steep_4 = steep * torque, steep * tension
     k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque

@@ -19,11 +19,11 @@ the largest component, or as far as the inputs determine what grows near the lim
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                16    4    0    6
-    loads                  16    4    0    6
+    loads                  17    4    0    6
     stored_energy          19    4    1    8
     complementary_energy   28    6    1   10
-    stiffness              33    4    0    8
-    loads_and_stiffness    36    4    0    8
+    stiffness              38    4    0    8
+    loads_and_stiffness    41    4    0    8
     compliance             64    4    0   22
     strains_and_gap        18    4    0    6
     stiffness_at_loads     36    4    0   11
@@ -595,12 +595,12 @@ def _loads_plain(u: Array, c: Constants, m: Array) -> bool:
         q = _q(u, c, m, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[3])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[3])
-    hard *= k.per_p
+    left = np.log(q, out=s[3])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[3])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     m *= hard
@@ -747,18 +747,20 @@ def _stiffness_plain(u: Array, c: Constants, stiff: Array) -> bool:
         q = _q(u, c, w, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[0])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[1])
-    hard *= k.per_p
+    left = np.log(q, out=s[0])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[1])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    steep = np.multiply(growth, hard, out=s[0])
+    steep = np.subtract(1, left, out=s[2])
+    steep *= hard
+    steep /= left
     steep /= q
     _spread(stiff, steep, w)
-    bend = np.multiply(k.bending, hard, out=s[0])
+    bend = np.multiply(k.bending, hard, out=s[2])
     stiff[0, 0] += bend
     stiff[1, 1] += bend
     stiff[2, 2] += np.multiply(k.turning, hard, out=s[1])
@@ -818,19 +820,21 @@ def _loads_and_stiffness_plain(u: Array, c: Constants, m: Array, stiff: Array) -
         q = _q(u, c, w, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[0])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[1])
-    hard *= k.per_p
+    left = np.log(q, out=s[0])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[1])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     np.multiply(hard, w, out=m)
-    steep = np.multiply(growth, hard, out=s[0])
+    steep = np.subtract(1, left, out=s[2])
+    steep *= hard
+    steep /= left
     steep /= q
     _spread(stiff, steep, w)
-    bend = np.multiply(k.bending, hard, out=s[0])
+    bend = np.multiply(k.bending, hard, out=s[2])
     stiff[0, 0] += bend
     stiff[1, 1] += bend
     stiff[2, 2] += np.multiply(k.turning, hard, out=s[1])
@@ -871,9 +875,8 @@ def _loads_and_stiffness_at(u: Any, c: Constants) -> Any:
         raise _Extreme
     q = q or NOUGHT
     left = -expm1(half_p * log(q))
-    growth = 1 / left - 1
     hard = gamma * left**minus_per_p
-    steep = growth * hard / q
+    steep = hard * (1 - left) / left / q
     bend, steep_1, steep_2 = bending * hard, r1 * steep, r2 * steep
     steep_3 = steep * torque
     k11, k12, k13 = bend + r1 * steep_1, r2 * steep_1, steep_1 * torque

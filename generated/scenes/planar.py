@@ -19,11 +19,11 @@ the largest component, or as far as the inputs determine what grows near the lim
 
 Operations a point where nothing is extreme: arithmetic, transcendental, energy shares, temporaries
     strains                17    4    0    6
-    loads                  17    4    0    7
+    loads                  18    4    0    7
     stored_energy          20    4    1    9
     complementary_energy   28    6    1   10
-    stiffness              35    4    0   10
-    loads_and_stiffness    38    4    0   10
+    stiffness              40    4    0   10
+    loads_and_stiffness    43    4    0   10
     compliance             64    4    0   22
     strains_and_gap        19    4    0    6
     stiffness_at_loads     37    4    0   12
@@ -618,12 +618,12 @@ def _loads_plain(u2: Array, v: Array, c: Constants, m2: Array, n: Array) -> bool
         q = _q(u2, v, c, m2, n, s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[1])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[1])
-    hard *= k.per_p
+    left = np.log(q, out=s[1])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[1])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     m2 *= hard
@@ -774,26 +774,28 @@ def complementary_energy(
 def _stiffness_plain(u2: Array, v: Array, c: Constants, stiff: Array) -> bool:
     """`_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    s = _scratch(6, u2)
+    s = _scratch(7, u2)
     w, s = s[:3], s[3:]
     with np.errstate(over="ignore", invalid="ignore"):
         q = _q(u2, v, c, w[0], w[1:], s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[0])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[2])
-    hard *= k.per_p
+    left = np.log(q, out=s[0])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[2])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
-    steep = np.multiply(growth, hard, out=s[0])
+    steep = np.subtract(1, left, out=s[3])
+    steep *= hard
+    steep /= left
     steep /= q
     _spread(stiff, steep, w)
-    bend = np.multiply(k.bending, hard, out=s[0])
+    bend = np.multiply(k.bending, hard, out=s[3])
     stiff[0, 0] += bend
-    shear = np.multiply(k.shearing, hard, out=s[0])
+    shear = np.multiply(k.shearing, hard, out=s[3])
     stiff[1, 1] += shear
     stiff[2, 2] += np.multiply(k.stretching, hard, out=s[2])
     return True
@@ -848,28 +850,30 @@ def _loads_and_stiffness_plain(
 ) -> bool:
     """`_loads_and_stiffness` where nothing is extreme; else False."""
     k = c.plain
-    s = _scratch(6, u2)
+    s = _scratch(7, u2)
     w, s = s[:3], s[3:]
     with np.errstate(over="ignore", invalid="ignore"):
         q = _q(u2, v, c, w[0], w[1:], s)
     if not _inside(q, k.within_q):
         return False
-    growth = np.log(q, out=s[0])
-    growth *= -0.5 * c.p
-    np.expm1(growth, out=growth)
-    np.divide(1, growth, out=growth)
-    hard = np.log1p(growth, out=s[2])
-    hard *= k.per_p
+    left = np.log(q, out=s[0])
+    left *= 0.5 * c.p
+    np.expm1(left, out=left)
+    np.negative(left, out=left)
+    hard = np.log(left, out=s[2])
+    hard *= -k.per_p
     np.exp(hard, out=hard)
     hard *= c.gamma
     np.multiply(hard, w[0], out=m2)
     np.multiply(hard, w[1:], out=n)
-    steep = np.multiply(growth, hard, out=s[0])
+    steep = np.subtract(1, left, out=s[3])
+    steep *= hard
+    steep /= left
     steep /= q
     _spread(stiff, steep, w)
-    bend = np.multiply(k.bending, hard, out=s[0])
+    bend = np.multiply(k.bending, hard, out=s[3])
     stiff[0, 0] += bend
-    shear = np.multiply(k.shearing, hard, out=s[0])
+    shear = np.multiply(k.shearing, hard, out=s[3])
     stiff[1, 1] += shear
     stiff[2, 2] += np.multiply(k.stretching, hard, out=s[2])
     return True
@@ -916,9 +920,8 @@ def _loads_and_stiffness_at(u2: Any, v: Any, c: Constants) -> Any:
         raise _Extreme
     q = q or NOUGHT
     left = -expm1(half_p * log(q))
-    growth = 1 / left - 1
     hard = gamma * left**minus_per_p
-    steep = growth * hard / q
+    steep = hard * (1 - left) / left / q
     bend, shear, steep_1 = bending * hard, shearing * hard, r2 * steep
     steep_2, steep_3 = r4 * steep, steep * tension
     k11, k12, k13 = bend + r2 * steep_1, r4 * steep_1, steep_1 * tension
