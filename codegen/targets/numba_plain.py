@@ -7,10 +7,8 @@ them it does the block again.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from rodproof.codegen.kernel import Kernel
-from rodproof.codegen.passes.specialise import drop_dead
 from rodproof.codegen.targets import scalar
 from rodproof.codegen.targets.lines import INDENT, filled, wrapped
 from rodproof.codegen.targets.numba_template import NUMBERS, ORDINARY
@@ -44,7 +42,7 @@ def taken(kernels: tuple[Kernel, ...], kernel: Kernel, values: int) -> str:
 
 def function(kernel: Kernel, known: Sequence[str], *, packed: bool) -> list[str]:
     """The plain function of one point; nothing without a plain kernel."""
-    plain = drop_dead(replace(kernel.plain, form=None)) if kernel.plain else None
+    plain = scalar.formless(kernel.plain) if kernel.plain else None
     if plain is None:
         return []
     spelling = {name: f"c.{name}" for name in known}

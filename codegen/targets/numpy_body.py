@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 
 import sympy as sp
 
-from rodproof.codegen.kernel import Kernel, Output
+from rodproof.codegen.kernel import Dyad, Kernel, Output
 from rodproof.codegen.scene import LOAD_NAMES
 from rodproof.codegen.targets.lines import wrapped
 from rodproof.codegen.texts import FunctionText
@@ -109,10 +109,9 @@ def vector_places(kernel: Kernel) -> dict[str, str]:
     return {name: f"{names[0][0]}[{k}]" for k, name in enumerate(names)}
 
 
-def spread(kernel: Kernel) -> list[str]:
-    """The line that writes the rank-one term."""
-    dyad = kernel.dyad
-    return [f"_spread({dyad.array}, {dyad.weight}, {dyad.vector[0][0]})"] if dyad else []
+def spread(dyad: Dyad, along: str) -> str:
+    """The line that writes the rank-one term, of the vector in the array ``along``."""
+    return f"_spread({dyad.array}, {dyad.weight}, {along})"
 
 
 def mirrored(kernel: Kernel, packed: int) -> list[str]:

@@ -120,8 +120,7 @@ def careful_body(
     if kernel.plain:
         arguments = ", ".join([*text.inputs, "c", *text.outputs])
         lines += [f"{INDENT}if _{kernel.name}_plain({arguments}):", f"{INDENT * 2}return"]
-    rows = "strains" if _rest(kernel) else rows_name(kernel.inputs)
-    lines += [f"{INDENT}{rows} = {gathered(text)}"]
+    lines += [f"{INDENT}{rows_name(kernel.inputs)} = {gathered(text)}"]
     lines += [INDENT + line for line in _rest(kernel)]
     steps_done, waiting = set[str](), list[Assignment]()
     for a in kernel.body:
@@ -161,7 +160,7 @@ def _vectors(kernel: Kernel) -> Iterator[Assignment]:
 def _matrix(kernel: Kernel, printer: Printer, packed: int) -> list[str]:
     """The rank-one term, what is beside it or in its place, and what is below the diagonal."""
     entries = [o for o in kernel.outputs if len(o.index) == 2]
-    lines = spread(kernel)
+    lines = [spread(kernel.dyad, kernel.dyad.vector[0][0])] if kernel.dyad else []
     found = beside(kernel) if kernel.dyad else {o.expr: [(o, False)] for o in entries}
     for extra, places in found.items():
         lines += _put(extra, places, printer, packed)

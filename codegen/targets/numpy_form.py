@@ -50,10 +50,12 @@ def squares_of(
     """The shared beginnings of the plain kernels, by the form's quantity."""
     found = dict[str, Square]()
     for kernel in (k.plain for k in kernels if k.plain):
-        square = _square(kernel, words[kernel.name], constants, scene)
-        known = found.setdefault(square.quantity, square)
-        if {*known.body} != {*square.body} or known.answer != square.answer:
-            name = square.quantity
+        assert kernel.form is not None
+        name = kernel.form.quantity
+        if name not in found:
+            found[name] = _square(kernel, words[kernel.name], constants, scene)
+        known = found[name]
+        if {*known.body} != {*beginning(kernel)} or known.answer != answer_of(kernel, scene):
             raise KernelError(f"the plain kernels disagree on {name} or on what goes with it")
     return found
 

@@ -1,4 +1,4 @@
-"""Prints plain kernels: bodies in place, one operation a line, and the constants they take.
+"""Prints plain kernels: bodies in place, rows that follow each other at once, and their constants.
 
 A plain body answers False where its kernel's region does not hold all points of the block; the
 results are to be written again then. Its temporaries are rows of scratch that stay in the cache.
@@ -11,12 +11,7 @@ from string import Template
 
 import sympy as sp
 
-from rodproof.codegen.kernel import (
-    SPAN_POWER,
-    Kernel,
-    Output,
-    symbol,
-)
+from rodproof.codegen.kernel import SPAN_POWER, Kernel, Output, symbol
 from rodproof.codegen.scene import Scene
 from rodproof.codegen.targets.calls import Call, calls
 from rodproof.codegen.targets.lines import INDENT, wrapped
@@ -27,6 +22,7 @@ from rodproof.codegen.targets.numpy_body import (
     mirrored,
     packed_size,
     place_of,
+    spread,
 )
 from rodproof.codegen.targets.numpy_form import (
     PRODUCTS,
@@ -220,8 +216,7 @@ def _arranged(kernel: Kernel, printer: Printer, packed: int, known: set[str]) ->
         settle(map(symbol, (dyad.weight, *dyad.vector)))
         reads = frozenset({dyad.weight, *dyad.vector})
         along = VECTOR if kernel.form and dyad.vector == kernel.form.vector else ALONG
-        line = f"_spread({dyad.array}, {dyad.weight}, {along})"
-        work.append(Call("", "", (line,), reads))
+        work.append(Call("", "", (spread(dyad, along),), reads))
         for extra, entries in beside(kernel).items():
             settle([extra])
             work.extend(_added(extra, entries, printer, packed))

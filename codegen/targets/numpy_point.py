@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import cache
 
 import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 
 from rodproof.codegen.kernel import Kernel, symbol
-from rodproof.codegen.passes.specialise import drop_dead
 from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.scene import CONSTANT_NAMES, Scene
 from rodproof.codegen.targets import scalar
@@ -130,8 +128,7 @@ def _hoisted(kernel: Kernel) -> Kernel:
         rate, log = node.args[0].as_independent(log1p)
         if isinstance(log, log1p):
             changed[node] = (1 + log.args[0]) ** rate
-    plain = replace(kernel.plain.rewrite(changed), form=None)
-    return scalar.hoisted(drop_dead(plain))
+    return scalar.hoisted(scalar.formless(kernel.plain.rewrite(changed)))
 
 
 def point_constants(kernels: tuple[Kernel, ...]) -> list[str]:

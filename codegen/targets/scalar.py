@@ -14,6 +14,7 @@ from sympy.codegen.cfunctions import expm1, log1p
 
 from rodproof.codegen.kernel import Assignment, Kernel, Output, log_max, symbol, tiny
 from rodproof.codegen.passes.share import drop_aliases
+from rodproof.codegen.passes.specialise import drop_dead
 from rodproof.codegen.primitives import WorkShare
 from rodproof.codegen.targets.lines import INDENT, WIDTH, filled, grouped, wrapped
 from rodproof.codegen.targets.printer import ATOM, POWER, PRODUCT, Printer
@@ -103,6 +104,11 @@ def body(
         else:
             answer.append(_vector(outputs, printer))
     return Body(tuple(lines), tuple(answer))
+
+
+def formless(kernel: Kernel) -> Kernel:
+    """The kernel without the hint for rows of arrays, and without what only that needs."""
+    return drop_dead(replace(kernel, form=None))
 
 
 def hoisted(kernel: Kernel) -> Kernel:
