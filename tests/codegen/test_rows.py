@@ -11,32 +11,48 @@ from rodproof.codegen.targets.calls import Call
 from rodproof.codegen.targets.rows import Line, joined, print_calls
 
 LENGTHS = {"a": 3, "b": 3, "s": 4}
-rows = st.one_of(
-    [st.integers(0, n - 1).map(lambda k, a=a: f"{a}[{k}]") for a, n in LENGTHS.items()]
-)
-lines = st.builds(
-    Line,
+#: An operand that is the same for every line of a run, or goes on with it from a row.
+fixed = st.sampled_from(["k", "-c.k", "root", "a[1]"]).map(lambda text: (text, None))
+going = st.tuples(st.sampled_from([*LENGTHS]), st.integers(0, 2))
+runs = st.tuples(
     st.sampled_from(["np.multiply", "np.add", "np.subtract"]),
-    st.tuples(st.one_of(rows, st.sampled_from(["k", "-c.k", "root"])), rows),
-    rows,
+    going,
+    st.tuples(st.one_of(fixed, going), going),
+    st.integers(1, 3),
+    st.sampled_from([1, 1, -1]),
 )
 
 
-def after(steps: list[Line]) -> dict[str, np.ndarray]:
-    """The arrays after the lines, from the same start."""
+def lines_of(function: str, to: tuple, operands: tuple, count: int, turn: int) -> list[Line]:
+    """Lines from row to row, as far as the arrays reach; operands in turn, or the same way."""
+
+    def at(place: tuple, k: int) -> str:
+        return place[0] if place[1] is None else f"{place[0]}[{place[1] + k}]"
+
+    ends = [LENGTHS[array] - first for array, first in (to, *operands) if first is not None]
+    return [
+        Line(function, tuple(at(o, k) for o in operands[:: turn**k]), at(to, k))
+        for k in range(min(count, *ends))
+    ]
+
+
+def after(text: list[str]) -> dict[str, np.ndarray]:
+    """The arrays after the text, from the same start."""
     rng = np.random.default_rng(5)
     known = {name: rng.integers(-9, 9, (n, 5)).astype(float) for name, n in LENGTHS.items()}
     known["root"] = rng.integers(-9, 9, 5).astype(float)
     record = type("Record", (), {"k": 2.0})
     with np.errstate(all="ignore"):
-        exec("\n".join(line.text for line in steps), {"np": np, "k": 3.0, "c": record, **known})
+        exec("\n".join(text), {"np": np, "k": 3.0, "c": record, **known})
     return known
 
 
-@given(st.lists(lines, max_size=9))
-def test_joined_lines_do_the_same(steps: list[Line]) -> None:
+@given(st.lists(runs, max_size=5))
+def test_joined_lines_do_the_same(found: list[tuple]) -> None:
     """Whatever overlaps, to the bit."""
-    want, got = after(steps), after(joined(steps, LENGTHS))
+    steps = [line for run in found for line in lines_of(*run)]
+    spelt = [f"{s.to}[:] = {s.function}({', '.join(s.operands)})" for s in steps]
+    want, got = after(spelt), after([line.text for line in joined(steps, LENGTHS)])
     for name in want:
         np.testing.assert_array_equal(got[name], want[name])
 
